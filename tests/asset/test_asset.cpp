@@ -270,7 +270,28 @@ TEST_CASE("remake asset: a channel whose image cannot be read is told, the other
   CHECK_THAT(made.warnings[0], Catch::StartsWith("not carried: glow.ktx2 of material paint: "));
   CHECK_THAT(made.warnings[1],
              Catch::StartsWith("not carried: half.png of material paint: broken: "));
-  CHECK(made.baked.images.size() == 3);  // the emission has its factor
+  // Normals are the mesh's own, and without its image the light is dark.
+  CHECK(made.baked.images.size() == 2);
+}
+
+TEST_CASE("remake asset: images without texture coordinates are told, factors are kept") {
+  const Folder folder;
+  MeshSource asset = painted(source_of(icosphere(3), "ball.obj"));
+  asset.file.base_colours[0].image = "skin.png";
+  asset.file.base_colours[0].factor = {1, 1, 1, 1};
+  asset.file.comments = {"base colour of paint: texture skin.png, Kd 0 0 1"};
+  RemakeOptions options{.whole = coarse(), .width = 64};
+  options.page = false;
+  PendingFiles files;
+  const RemadeAsset made = remake_asset(asset, folder.path.string(), options, files);
+  CHECK(made.warnings ==
+        std::vector<std::string>{"not carried: skin.png of material paint: the mesh has no "
+                                 "texture coordinates"});
+  files.publish();
+  // What an .mtl says beside its image shows without it.
+  const Image colour = read_image(folder.path.string() + "/ball_basecolor.png");
+  CHECK(colour.pixel(5, 9)[0] == 0);
+  CHECK(colour.pixel(5, 9)[2] == 1);
 }
 
 TEST_CASE("whole surface: a sheet, whose two sides would lie in one another, is wrapped") {

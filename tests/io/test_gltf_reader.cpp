@@ -8,6 +8,7 @@
 #include <fstream>
 #include <random>
 
+#include "io/attributes/material_comments.h"
 #include "io/attributes/source_attributes.h"
 #include "io/formats/gltf/gltf_files.h"
 #include "io/polygons/welding.h"
@@ -763,9 +764,12 @@ TEST_CASE(
       R"("scenes":[{"nodes":[0]}],"scene":0,)"
       R"("materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}},)"
       R"("normalTexture":{"index":0},"occlusionTexture":{"index":1,"texCoord":1,"extensions":)"
-      R"({"KHR_texture_transform":{"offset":[0.5,0]}}},"emissiveTexture":{"index":1,"texCoord":2}}],)"
+      R"({"KHR_texture_transform":{"offset":[0.5,0]}}},"emissiveTexture":{"index":1,"texCoord":2},)"
+      R"("emissiveFactor":[1,1,1]}],)"
       R"("textures":[{"source":0},{"source":1}],"images":[{"uri":"a.png"},{"uri":"b.png"}])";
   const MeshFile file = read(gltf.bytes());
+  // Without its image the factor would light all of it.
+  CHECK(file.channels.at(0).emission.factor == std::array<double, 4>{0, 0, 0, 1});
   REQUIRE(file.second_texcoords);
   REQUIRE(file.corner_tangents);
   CHECK_FALSE(file.find_vertex_property("second s"));
@@ -784,6 +788,79 @@ TEST_CASE(
         std::vector<std::string>{
             "not carried: emissive textures on a third set of texture coordinates of 1 of 1 "
             "material"});
+}
+
+TEST_CASE("gltf_reader: second coordinates that one material uses are told as lost of the other") {
+  Gltf gltf = tetrahedron_gltf();
+  gltf.add(floats({0, 0, 1, 0, 0, 1, 1, 1}), 5126, 4, "VEC2");
+  const auto primitive = [](int material) {
+    return R"({"attributes":{"POSITION":0,"TEXCOORD_0":2,"TEXCOORD_1":2},"indices":1,"material":)" +
+           std::to_string(material) + "}";
+  };
+  gltf.rest += R"(,"materials":[{"occlusionTexture":{"index":0,"texCoord":1},)"
+               R"("normalTexture":{"index":0,"texCoord":1},)"
+               R"("pbrMetallicRoughness":{"baseColorTexture":{"index":0}}},{}],)"
+               R"("textures":[{"source":0}],"images":[{"uri":"a.png"}])";
+  const auto losses_of = [&](const std::string& primitives) {
+    gltf.meshes = R"([{"primitives":[)" + primitives + "]}]";
+    return sphparam::losses_among(read(gltf.bytes()).notes);
+  };
+  CHECK(losses_of(primitive(0)).empty());
+  CHECK(losses_of(primitive(1)) ==
+        std::vector<std::string>{"not carried: of the vertices TEXCOORD_1"});
+  CHECK(losses_of(primitive(0) + "," + primitive(1)) ==
+        std::vector<std::string>{
+            "not carried: of the vertices TEXCOORD_1 where no material there uses it"});
+}
+
+TEST_CASE("gltf_reader: which textures show their texels unfiltered is noted") {
+  Gltf gltf = tetrahedron_gltf();
+  gltf.add(floats({0, 0, 1, 0, 0, 1, 1, 1}), 5126, 4, "VEC2");
+  gltf.meshes = R"([{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":2},"indices":1,)"
+                R"("material":0}]}])";
+  gltf.rest +=
+      R"(,"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0},)"
+      R"("metallicRoughnessTexture":{"index":1}},"normalTexture":{"index":0}}],)"
+      R"("samplers":[{"magFilter":9728},{"magFilter":9729}],)"
+      R"("textures":[{"source":0,"sampler":0},{"source":0,"sampler":1}],"images":[{"uri":"a.png"}])";
+  const MeshFile file = read(gltf.bytes());
+  CHECK(file.comments.front() == "material 0: unfiltered texels of base colour, normal");
+  CHECK(sphparam::is_noted_nearest(file, 0, "base colour"));
+  CHECK_FALSE(sphparam::is_noted_nearest(file, 0, "roughness"));
+  CHECK_FALSE(sphparam::is_noted_nearest(file, 1, "base colour"));
+}
+
+TEST_CASE("gltf_reader: morph targets move the mesh as their weights in the file stand") {
+  Gltf gltf = tetrahedron_gltf();
+  gltf.add(floats({2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}), 5126, 4, "VEC3")
+      .add(floats({1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0}), 5126, 4, "VEC3")
+      .add(floats({0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}), 5126, 4, "VEC3");
+  const auto mesh = [](const std::string& weights) {
+    return R"([{"primitives":[{"attributes":{"POSITION":0,"NORMAL":3},"indices":1,)"
+           R"("targets":[{"POSITION":2,"NORMAL":4},{"POSITION":2}]}])" +
+           weights + "}]";
+  };
+  gltf.meshes = mesh("");
+  const MeshFile rest = read(gltf.bytes());
+  CHECK(rest.mesh.position(0) == Vector3(1, 1, 1));
+  CHECK(sphparam::losses_among(rest.notes) ==
+        std::vector<std::string>{"not carried: 2 morph targets"});
+  gltf.meshes = mesh(R"(,"weights":[0.5,0.25])");
+  const MeshFile moved = read(gltf.bytes());
+  CHECK(moved.mesh.position(0) == Vector3(2.5, 1, 1));
+  CHECK(moved.mesh.position(1) == rest.mesh.position(1));
+  const double half = std::sqrt(0.5);
+  CHECK(values_of(moved.find_vertex_property("nx"))[0] == Approx(half));
+  CHECK(values_of(moved.find_vertex_property("ny"))[0] == Approx(half));
+  CHECK(values_of(moved.find_vertex_property("nx"))[1] == 1);
+  CHECK(sphparam::losses_among(moved.notes) ==
+        std::vector<std::string>{
+            "not carried: 2 morph targets: the mesh is read as their weights stand"});
+  // Those of the node stand instead of the mesh's.
+  gltf.rest = replaced(gltf.rest, R"("nodes":[{"mesh":0)", R"("nodes":[{"mesh":0,"weights":[0,1])");
+  CHECK(read(gltf.bytes()).mesh.position(0) == Vector3(3, 1, 1));
+  gltf.meshes = replaced(gltf.meshes, R"({"POSITION":2}])", R"({"POSITION":1}])");
+  CHECK_FALSE(complaint(gltf.bytes()).empty());
 }
 
 TEST_CASE("gltf_reader: factors of a material's finish are carried, what makes no sense is not") {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "io/attributes/material_comments.h"
 #include "reading.h"
 
 using namespace sphparam;
@@ -60,7 +61,10 @@ TEST_CASE("obj_materials: base colours are those of the library") {
   CHECK(wood.problem.empty());
   CHECK(file.notes.empty());
   CHECK(file.companions == std::vector<std::string>{(folder.path() / "a.mtl").string()});
-  CHECK(file.comments == std::vector<std::string>{"base colour of wood: texture maps/my wood.png"});
+  CHECK(file.comments ==
+        std::vector<std::string>{"base colour of wood: texture maps/my wood.png, Kd 0.8 0.8 0.8"});
+  CHECK(diffuse_beside_texture(file, "wood") == std::array<double, 3>{0.8, 0.8, 0.8});
+  CHECK_FALSE(diffuse_beside_texture(file, "red"));
   const MeshFile tinted = folder.read_with("mtllib a.mtl",
                                            "newmtl wood\nKd 0.8 0.8 0\nmap_Kd w.png\n"
                                            "newmtl red\nKd 1 0 0\n");

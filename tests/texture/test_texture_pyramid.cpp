@@ -100,6 +100,17 @@ TEST_CASE("sampling: many texels in one sample become their mean, whichever way 
   CHECK(static_cast<double>(at(turned, 0.5, 0.5, 0.1, 0.1)[0]) == Approx(0.5).margin(0.01));
 }
 
+TEST_CASE(
+    "sampling: a texture that wants it is unfiltered where its texels are large, only there") {
+  SourceTexture t = texture(stripes(8), TextureWrap::Repeat, false);
+  const double x = 1.0 / 8 + 0.01, step = 1.0 / 64;  // just inside the second column
+  CHECK(at(t, x, 0.5, step, step)[0] < 0.9F);
+  t.nearest = true;
+  CHECK(at(t, x, 0.5, step, step)[0] == 1);
+  CHECK(at(t, x, 0.5, step, step, TextureFilter::Bicubic)[0] == 1);
+  CHECK(static_cast<double>(at(t, x, 0.5, 1, 1)[0]) == Approx(0.5).margin(0.01));
+}
+
 TEST_CASE("sampling: wrap modes are those of glTF") {
   const Image image = ramp(16, 16);
   const auto red = [&](TextureWrap wrap, double x) {

@@ -10,8 +10,10 @@
 
 #include "asset/asset_page.h"
 #include "asset/soup.h"
+#include "io/attributes/appearance.h"
+#include "io/attributes/left_out_image.h"
+#include "io/attributes/material_comments.h"
 #include "io/attributes/one_material.h"
-#include "io/attributes/specular_glossiness.h"
 #include "mesh/box.h"
 #include "option_domain.h"
 #include "rays/flat_normal.h"
@@ -182,17 +184,28 @@ class Remaker {
 std::vector<std::string> drop_unusable_images(MeshFile& file) {
   std::vector<std::string> told;
   std::map<std::string, std::string> known;  // by the name of an image: why not
+  const std::string no_texcoords = "the mesh has no texture coordinates";
+  const bool has_places = has_texcoords(file);
+  const auto placeless = [&](const MaterialTexture& texture) {
+    return !has_places && !texture.second && !texture.image.empty();
+  };
   const auto check = [&](MaterialTexture& texture, size_t material) {
     const auto [found, is_new] = known.try_emplace(texture.image);
-    if (is_new) found->second = why_unusable(texture);
+    if (is_new) found->second = placeless(texture) ? no_texcoords : why_unusable(texture);
     const std::string& why = found->second;
     if (why.empty()) return;
     told.push_back("not carried: " + texture.image + " of material " + file.materials[material] +
                    ": " + why);
-    texture.image.clear();
-    if (texture.made_of) leave_factors(texture);
+    leave_out_image(texture, file.channels[material]);
   };
-  for (size_t i = 0; i < file.base_colours.size(); ++i) check(file.base_colours[i], i);
+  const auto check_colour = [&](MaterialTexture& colour, size_t material) {
+    const bool had_image = !colour.image.empty();
+    check(colour, material);
+    if (!had_image || !colour.image.empty()) return;
+    if (const auto diffuse = diffuse_beside_texture(file, file.materials[material]))
+      std::ranges::copy(*diffuse, colour.factor.begin());
+  };
+  for (size_t i = 0; i < file.base_colours.size(); ++i) check_colour(file.base_colours[i], i);
   for (size_t i = 0; i < file.channels.size(); ++i)
     for (MaterialTexture* texture : file.channels[i].textures()) check(*texture, i);
   std::ranges::sort(told);

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string_view>
+#include <utility>
 
 #include "image/image_codec.h"
+#include "io/attributes/material_comments.h"
 #include "io/formats/gltf/gltf_files.h"
 #include "sphparam/io/paths.h"
 #include "texture/specular_glossiness_image.h"
@@ -88,6 +91,19 @@ DecodedTexture decode(const MaterialTexture& colour, const std::string& what, bo
   return {std::make_shared<const TexturePyramid>(image, linear, threads), heights};
 }
 
+/// As `note_nearest` has it.
+std::string_view noted_name(MaterialTexture MaterialChannels::*channel) {
+  static constexpr std::pair<MaterialTexture MaterialChannels::*, std::string_view> names[] = {
+      {&MaterialChannels::roughness, "roughness"},
+      {&MaterialChannels::metallic, "metallic"},
+      {&MaterialChannels::occlusion, "occlusion"},
+      {&MaterialChannels::normal, "normal"},
+      {&MaterialChannels::emission, "emissive"}};
+  for (const auto& [member, name] : names)
+    if (member == channel) return name;
+  return "opacity";
+}
+
 }  // namespace
 
 std::string why_unusable(const MaterialTexture& texture) try {
@@ -132,16 +148,20 @@ SourceTexture TextureReader::read(const MaterialTexture& said, const std::string
 
 std::vector<SourceTexture> TextureReader::read(MaterialTexture MaterialChannels::*channel) {
   std::vector<SourceTexture> textures;
-  for (size_t i = 0; i < file_.channels.size(); ++i)
+  for (size_t i = 0; i < file_.channels.size(); ++i) {
     textures.push_back(read(file_.channels[i].*channel, file_.materials[i]));
+    textures.back().nearest = is_noted_nearest(file_, i, noted_name(channel));
+  }
   return textures;
 }
 
 std::vector<SourceTexture> read_textures(const MeshFile& file, int threads) {
   TextureReader reader(file, TexelKind::Colour, threads);
   std::vector<SourceTexture> textures;
-  for (size_t i = 0; i < file.base_colours.size(); ++i)
+  for (size_t i = 0; i < file.base_colours.size(); ++i) {
     textures.push_back(reader.read(file.base_colours[i], file.materials[i]));
+    textures.back().nearest = is_noted_nearest(file, i, "base colour");
+  }
   return textures;
 }
 

@@ -21,6 +21,7 @@ struct SourceTexture {
   std::array<float, 4> factor = {1, 1, 1, 1};             // linear red, green, blue, alpha
   TexturePlacement placement = {{{1, 0, 0}, {0, 1, 0}}};  // on the mesh's coordinates, t upwards
   bool second = false;                                    // on the second ones
+  bool nearest = false;  // texels that are larger than samples are seen as they are
 };
 
 /// The textures of a mesh: one a material of its file, or the first for all faces; empty: none.

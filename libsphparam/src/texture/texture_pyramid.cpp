@@ -112,6 +112,8 @@ class Sampler {
     x_ = near_zero(line.first[0], texture.wrap_s);
     y_ = near_zero(line.first[1], texture.wrap_t);
     if (filter != TextureFilter::Nearest) measure_footprint();
+    const bool magnified = taps_ == 1 && coarse_share_ == 0 && level_ == 0;
+    if (texture.nearest && magnified) filter_ = TextureFilter::Nearest;
   }
 
   /// Where samples are bilinear in the finest level and none needs a texel beyond its borders: the

@@ -40,7 +40,8 @@ struct TextureLine {
 ///
 /// What a sample covers, the parallelogram of `step` and `below`, chooses the levels: linear
 /// between two of them by its narrow side, several samples along its wide one, at most 16. Where
-/// texels are larger than samples the filter is as asked for; `Nearest` always looks up one texel.
+/// texels are larger than samples the filter is as asked for, but `Nearest` for textures that want
+/// it; `Nearest` that is asked for always looks up one texel.
 void sample_texture(const SourceTexture& texture, TextureFilter filter, const TextureLine& line,
                     float* values, int channels = 4);
 

@@ -299,6 +299,7 @@ ObjMaterials read_obj_materials(const std::vector<std::string>& names,
     if (tints_texture(material)) material.others.insert("tints of textures (Kd beside map_Kd)");
     result.base_colours.push_back(finished(material));
     result.channels.push_back(finished_channels(material));
+    result.diffuse.push_back(material.diffuse);
     result.with_others += !material.others.empty();
     others.insert(material.others.begin(), material.others.end());
   }

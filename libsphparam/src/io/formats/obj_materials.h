@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -12,12 +13,13 @@ namespace sphparam {
 
 /// What the libraries (.mtl) of an OBJ file say of its materials.
 struct ObjMaterials {
-  std::vector<MaterialTexture> base_colours;  // one a name, or none where no library could be read
-  std::vector<MaterialChannels> channels;     // likewise
-  std::vector<std::string> others;            // what is said and not carried, in words, each once
-  long with_others = 0;                       // materials that say such things
-  std::vector<std::string> unknown;           // names that no library has
-  std::vector<std::string> problems;          // libraries that could not be read, and why
+  std::vector<MaterialTexture> base_colours;   // one a name, or none where no library could be read
+  std::vector<MaterialChannels> channels;      // likewise
+  std::vector<std::array<double, 3>> diffuse;  // Kd, likewise, beside an image too
+  std::vector<std::string> others;             // what is said and not carried, in words, each once
+  long with_others = 0;                        // materials that say such things
+  std::vector<std::string> unknown;            // names that no library has
+  std::vector<std::string> problems;           // libraries that could not be read, and why
 };
 
 /// Reads them in their order from below `folder`: of Kd, d, Tr and map_Kd the base colour, of Ke

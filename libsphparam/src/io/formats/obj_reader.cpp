@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "io/attributes/material_comments.h"
 #include "io/files/text_scanner.h"
 #include "io/formats/obj_materials.h"
 #include "number_text.h"
@@ -389,7 +390,7 @@ class ObjReader {
     file_.channels = std::move(read.channels);
     for (std::size_t m = 0; m < file_.base_colours.size(); ++m)
       if (const std::string& image = file_.base_colours[m].image; !image.empty())
-        file_.comments.push_back("base colour of " + file_.materials[m] + ": texture " + image);
+        note_texture(file_, file_.materials[m], image, read.diffuse[m]);
     const std::vector<std::string> unread =
         read.problems.empty() ? quoted_all(libraries) : read.problems;
     if (file_.base_colours.empty())

@@ -171,7 +171,8 @@ GltfDocument::Node plain(const tinygltf::Node& node) {
           .matrix = node.matrix,
           .translation = node.translation,
           .rotation = node.rotation,
-          .scale = node.scale};
+          .scale = node.scale,
+          .weights = node.weights};
 }
 
 void copy_model(tinygltf::Model& model, const std::string& name, const SceneOrigin& origin,
@@ -185,8 +186,7 @@ void copy_model(tinygltf::Model& model, const std::string& name, const SceneOrig
     document.meshes.emplace_back();
     for (const tinygltf::Primitive& primitive : mesh.primitives)
       document.meshes.back().push_back({primitive.mode, primitive.indices, primitive.material,
-                                        static_cast<int>(primitive.targets.size()),
-                                        primitive.attributes});
+                                        primitive.attributes, primitive.targets, mesh.weights});
   }
   for (const tinygltf::Node& node : model.nodes) document.nodes.push_back(plain(node));
   for (const tinygltf::Skin& skin : model.skins)

@@ -39,8 +39,9 @@ struct GltfDocument {
     int mode = 0;
     int indices = -1;
     int material = -1;
-    int morph_targets = 0;
     std::map<std::string, int> attributes;
+    std::vector<std::map<std::string, int>> targets;  // morphs: attributes to accessors
+    std::vector<double> weights;                      // of these, as the mesh has them
   };
   struct Node {
     int mesh = -1;
@@ -48,6 +49,7 @@ struct GltfDocument {
     std::map<std::string, int> instances;  // of the mesh: attributes to accessors; empty: one
     std::vector<int> children;
     std::vector<double> matrix, translation, rotation, scale;  // empty where not given
+    std::vector<double> weights;  // of morphs, instead of the mesh's; empty where not given
   };
   struct Skin {
     std::vector<int> joints;         // nodes
@@ -69,7 +71,8 @@ struct GltfDocument {
     MaterialChannels channels = {};
     TextureTransform transform = {};  // of the base colour's image, else of the first one there is
     int second_texcoord = -1;         // the vertices' set of images on another one; −1: none
-    std::vector<std::string> others = {};  // what else it says, in words
+    std::vector<std::string> others = {};   // what else it says, in words
+    std::vector<std::string> nearest = {};  // textures of `note_nearest`
   };
 
   std::vector<std::vector<unsigned char>> buffers;

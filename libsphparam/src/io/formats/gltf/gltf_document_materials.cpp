@@ -11,6 +11,7 @@
 
 #include "elementary.h"
 #include "io/attributes/finish_terms.h"
+#include "io/attributes/left_out_image.h"
 #include "io/attributes/specular_glossiness.h"
 #include "io/formats/gltf/gltf_files.h"
 #include "number_text.h"
@@ -110,6 +111,15 @@ class Images {
   std::map<std::tuple<int, std::uint64_t, std::uint64_t>, Bytes> of_views_;  // by their ranges
   std::uint64_t bytes_left_ = 0;
 };
+
+/// Whether its sampler shows texels as they are.
+bool is_nearest(const tinygltf::Model& model, int id) {
+  const auto index = static_cast<std::size_t>(id);
+  if (index >= model.textures.size()) return false;
+  const auto sampler = static_cast<std::size_t>(model.textures[index].sampler);
+  return sampler < model.samplers.size() &&
+         model.samplers[sampler].magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
+}
 
 /// Where the image of a texture is. Nothing in the model is promised to be there.
 void find_image(const tinygltf::Model& model, int id, Images& images, MaterialTexture& colour) {
@@ -291,14 +301,15 @@ class MaterialReader {
         std::ranges::all_of(placement[1], [](double x) { return std::isfinite(x); });
     if (second && transform.texcoord != result_.second_texcoord) {
       result_.others.push_back(what + " textures on a third set of texture coordinates");
-      return;
+      return leave_out_image(texture, result_.channels);
     }
     if (!has_place) {
       result_.others.push_back(what + " textures whose place is no number");
-      return;
+      return leave_out_image(texture, result_.channels);
     }
     texture.placement = placement;
     texture.second = second;
+    if (is_nearest(model_, info.index)) result_.nearest.push_back(what);
     find_image(model_, info.index, images_, texture);
   }
 

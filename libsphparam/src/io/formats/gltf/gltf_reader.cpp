@@ -7,9 +7,12 @@
 #include <map>
 #include <set>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "elementary.h"
+#include "io/attributes/left_out_image.h"
+#include "io/attributes/material_comments.h"
 #include "io/files/non_finite_advice.h"
 #include "io/formats/gltf/gltf_accessors.h"
 #include "io/formats/gltf/gltf_document.h"
@@ -168,8 +171,10 @@ class SceneReader {
 
   void add_mesh(const PlacedMesh& placed, const PlacedScene& scene) {
     is_broken_ = false;
-    // By the accessors of the vertices and the material that says where its image lies on them.
-    std::map<std::pair<std::map<std::string, int>, int>, PlacedVertices> already;
+    // By the accessors of the vertices, the material that says where its image lies on them, and
+    // the morphs that move them.
+    using Attributes = std::map<std::string, int>;
+    std::map<std::tuple<Attributes, int, std::vector<Attributes>>, PlacedVertices> already;
     const auto& primitives = document_.meshes[static_cast<std::size_t>(placed.mesh)];
     for (std::size_t p = 0; p < primitives.size(); ++p) {
       const GltfDocument::Primitive& primitive = primitives[p];
@@ -179,8 +184,10 @@ class SceneReader {
       transform_of_uv_ = transform_of(primitive);
       second_ = second_texcoords_of(primitive);
       const bool plain = transform_of_uv_ == GltfDocument::TextureTransform() && second_.empty();
+      find_morphs(primitive, node_of(placed));
       const auto [vertices, is_new] =
-          already.try_emplace({primitive.attributes, plain ? -1 : primitive.material});
+          already.try_emplace({primitive.attributes, plain ? -1 : primitive.material,
+                               is_morphed() ? primitive.targets : std::vector<Attributes>()});
       if (is_new) {
         const VertexTransforms transforms = transforms_of(primitive, placed, scene);
         vertices->second = {static_cast<int>(vertex_count()), transforms[0].linear};
@@ -192,6 +199,37 @@ class SceneReader {
                     linear.determinant() < 0);
     }
     if (node_of(placed).skin >= 0) ++(is_broken_ ? broken_skins_ : posed_skins_);
+  }
+
+  void find_morphs(const GltfDocument::Primitive& primitive, const GltfDocument::Node& node) {
+    targets_ = &primitive.targets;
+    weights_ = node.weights.empty() ? primitive.weights : node.weights;
+    weights_.resize(targets_->size(), 0);
+    any_morphed_ = any_morphed_ || is_morphed();
+  }
+
+  bool is_morphed() const {
+    return std::ranges::any_of(weights_, [](double weight) { return weight != 0; });
+  }
+
+  /// The numbers of an attribute, `width` a vertex, as the weights in the file move the first
+  /// three. Valid until the next call.
+  const std::vector<double>& morphed(const std::string& attribute, const std::vector<double>& rest,
+                                     std::size_t width = 3) {
+    if (!is_morphed()) return rest;
+    morphed_ = rest;
+    for (std::size_t t = 0; t < weights_.size(); ++t) {
+      const auto target = (*targets_)[t].find(attribute);
+      if (weights_[t] == 0 || target == (*targets_)[t].end()) continue;
+      require_components(target->second, {3});
+      const std::vector<double>& moves = accessors_.numbers(target->second);
+      if (moves.size() / 3 != rest.size() / width)
+        accessors_.fail(target->second, where_ + " has " + std::to_string(rest.size() / width) +
+                                            " vertices, its morph target another number");
+      for (std::size_t i = 0; i < moves.size(); ++i)
+        morphed_[i / 3 * width + i % 3] += weights_[t] * moves[i];
+    }
+    return morphed_;
   }
 
   GltfDocument::TextureTransform transform_of(const GltfDocument::Primitive& primitive) {
@@ -254,7 +292,7 @@ class SceneReader {
 
   void add_vertices(const GltfDocument::Primitive& primitive, int position,
                     const VertexTransforms& transforms) {
-    const std::vector<double>& xyz = accessors_.any_numbers(position);
+    const std::vector<double>& xyz = morphed("POSITION", accessors_.any_numbers(position));
     const auto count = static_cast<std::int64_t>(xyz.size() / 3);
     const std::int64_t limit =
         std::min<std::int64_t>(options_.max_vertices, std::numeric_limits<int>::max());
@@ -275,8 +313,8 @@ class SceneReader {
     }
     for (const auto& [attribute, accessor] : primitive.attributes)
       if (accessor != position)
-        add_attribute(attribute, accessor, transforms, before, xyz.size() / 3);
-    morph_targets_ = std::max(morph_targets_, primitive.morph_targets);
+        add_attribute(attribute, accessor, transforms, before, static_cast<std::size_t>(count));
+    morph_targets_ = std::max(morph_targets_, std::ssize(primitive.targets));
   }
 
   void add_attribute(const std::string& attribute, int accessor, const VertexTransforms& transforms,
@@ -287,6 +325,7 @@ class SceneReader {
       if (!of_skin) not_carried_.insert(one_line(attribute));
       return;
     }
+    carried_.insert(one_line(attribute));
     if (accessors_.accessor(accessor).count != count)
       accessors_.fail(accessor, where_ + " has " + std::to_string(count) + " vertices");
     if (attribute == "NORMAL") {
@@ -348,11 +387,12 @@ class SceneReader {
     std::vector<Eigen::Matrix3d> cotransforms;
     for (const Transform& transform : transforms.all)
       cotransforms.push_back(transform.linear.inverse().transpose());
-    const std::vector<double>& xyz = accessors_.numbers(accessor);
+    const std::vector<double>& xyz = morphed("NORMAL", accessors_.numbers(accessor));
     std::vector<double> turned[3];
     for (std::size_t i = 0; i < xyz.size(); i += 3) {
       Vector3 normal = Eigen::Map<const Vector3>(xyz.data() + i);
-      const bool as_written = transforms[i / 3].linear == Eigen::Matrix3d::Identity();
+      const bool as_written =
+          !is_morphed() && transforms[i / 3].linear == Eigen::Matrix3d::Identity();
       if (!as_written)
         normal = (cotransforms[transforms.is_one() ? 0 : i / 3] * normal).stableNormalized();
       for (int axis = 0; axis < 3; ++axis)
@@ -392,7 +432,7 @@ class SceneReader {
   /// not, but for w.
   void add_tangents(int accessor, const VertexTransforms& transforms, std::size_t before) {
     require_components(accessor, {4});
-    const std::vector<double>& xyzw = accessors_.numbers(accessor);
+    const std::vector<double>& xyzw = morphed("TANGENT", accessors_.numbers(accessor), 4);
     const double turned = transforms[0].linear.determinant() < 0 ? -1 : 1;
     std::vector<double> columns[4];
     for (std::size_t i = 0; i < xyzw.size(); i += 4) {
@@ -505,7 +545,7 @@ class SceneReader {
   }
 
   void add_material(int id) {
-    const auto& [name, words, base_colour, channels, unused, second, said_besides] =
+    const auto& [name, words, base_colour, channels, unused, second, said_besides, nearest] =
         document_.materials[static_cast<std::size_t>(id)];
     std::vector<std::string> others = said_besides;
     file_.materials.push_back(name.empty() ? "material " + std::to_string(id) : name);
@@ -520,10 +560,11 @@ class SceneReader {
     if (without_second_.contains(id)) {
       for (MaterialTexture* texture : file_.channels.back().textures()) {
         if (!texture->second || texture->image.empty()) continue;
-        texture->image.clear();
+        leave_out_image(*texture, file_.channels.back());
         others.push_back("textures whose texture coordinates are not there");
       }
     }
+    note_nearest(file_, file_.materials.size() - 1, nearest);
     if (!words.empty())
       file_.comments.push_back("base colour of " + file_.materials.back() + ": " + words);
     materials_with_others_ += !others.empty();
@@ -549,10 +590,14 @@ class SceneReader {
     if (read_once_ > 0)
       add_loss(file_.notes,
                "the instances of " + counted(read_once_, "mesh", "meshes") + ", read once");
-    if (morph_targets_ > 0) add_loss(file_.notes, counted(morph_targets_, "morph target"));
-    if (!not_carried_.empty())
-      add_loss(file_.notes,
-               "of the vertices " + enumerated({not_carried_.begin(), not_carried_.end()}));
+    if (morph_targets_ > 0)
+      add_loss(file_.notes, counted(morph_targets_, "morph target") +
+                                (any_morphed_ ? ": the mesh is read as their weights stand" : ""));
+    std::vector<std::string> not_carried;
+    for (const std::string& attribute : not_carried_)
+      not_carried.push_back(
+          attribute + (carried_.contains(attribute) ? " where no material there uses it" : ""));
+    if (!not_carried.empty()) add_loss(file_.notes, "of the vertices " + enumerated(not_carried));
     if (accessors_.misaligned() > 0)
       file_.notes.push_back(counted(accessors_.misaligned(), "accessor") +
                             " not aligned as glTF wants it: read all the same");
@@ -580,12 +625,17 @@ class SceneReader {
   std::set<int> without_second_;         // materials whose other coordinates some primitive lacks
   std::set<int> without_texcoords_;      // materials whose images some primitive has no place for
   std::set<std::string> not_carried_;    // attributes
+  std::set<std::string> carried_;        // likewise, of some primitive
   long posed_skins_, broken_skins_ = 0;  // meshes placed with one
   std::map<int, std::vector<Transform>> joints_of_;  // of skins
   std::uint64_t of_instances_ = 0;                   // triangles, at most
   long read_once_ = 0;                               // meshes without their instances
   bool is_broken_ = false;                           // the skin of the mesh being read
-  int morph_targets_ = 0;
+  std::ptrdiff_t morph_targets_ = 0;
+  bool any_morphed_ = false;
+  const std::vector<std::map<std::string, int>>* targets_ = nullptr;  // of the primitive being read
+  std::vector<double> weights_;                                       // of these
+  std::vector<double> morphed_;  // numbers that they have moved
   long degenerate_ = 0;
   long without_area_ = 0;           // primitives of points and lines
   std::string first_without_area_;  // the first of them, in words

@@ -26,12 +26,12 @@ bool looks_like_gltf(std::string_view bytes);
 /// _THETA_PHI as theta and phi, the material of each face and what it says (materials.h); textures
 /// are named in comments too, and never decoded here; one says that y is up. Told as not carried:
 /// extensions of materials but unlit and emissive strength, textures on other coordinates than a
-/// material's first, other attributes, skins, morph targets, animations, cameras, lights, other
-/// scenes, points and lines. Triangles, strips and fans, with or without indices; triangles that
-/// name a vertex twice are dropped and counted in a note. Refused by name: a file of points and
-/// lines alone, glTF 1.0, required extensions other than KHR_mesh_quantization,
-/// EXT_mesh_gpu_instancing, EXT_meshopt_compression, KHR_draco_mesh_compression and those of
-/// materials, textures and lights.
+/// material's first, other attributes, skins and morph targets, of which the mesh has the shape
+/// that the file leaves it in, animations, cameras, lights, other scenes, points and lines.
+/// Triangles, strips and fans, with or without indices; triangles that name a vertex twice are
+/// dropped and counted in a note. Refused by name: a file of points and lines alone, glTF 1.0,
+/// required extensions other than KHR_mesh_quantization, EXT_mesh_gpu_instancing,
+/// EXT_meshopt_compression, KHR_draco_mesh_compression and those of materials, textures and lights.
 /// `folder` is where buffers in files of their own may be; without it they are refused. `origin`
 /// says what the scene was before it was glTF. Throws: ReadError that names the accessor, mesh or
 /// node.
