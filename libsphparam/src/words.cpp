@@ -16,11 +16,17 @@ std::string defect_list(const std::vector<MeshDefect>& defects) {
   return lines;
 }
 
-std::string kept_line(const KeptParts& parts) {
-  if (parts.count == 0 || parts.refused) return "";
-  return "kept " + percent(parts.area_share, 5) + " of the area and " +
-         percent(parts.face_share, 5) + " of the faces, lost " + percent(1 - parts.area_share, 2) +
-         " and " + percent(1 - parts.face_share, 2);
+std::string kept_line(const KeptParts& parts, const std::vector<RepairAction>& actions) {
+  long unmeasured = 0;
+  for (const RepairAction& action : actions)
+    if (action.kind == RepairKind::NonFiniteFaceRemoved) unmeasured += action.count;
+  if (parts.refused || (parts.count == 0 && unmeasured == 0)) return "";
+  const std::string kept = "kept " + percent(parts.area_share, 5) + " of the area and " +
+                           percent(parts.face_share, 5) + " of the faces, lost " +
+                           percent(1 - parts.area_share, 2) + " and " +
+                           percent(1 - parts.face_share, 2);
+  if (unmeasured == 0) return kept;
+  return kept + "; " + counted(unmeasured, "face", "faces") + " had no area that can be measured";
 }
 
 std::string handle_line(const HandleLoop& loop) {

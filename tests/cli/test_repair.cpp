@@ -1,9 +1,12 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "program.h"
 #include "sphparam/mesh/mesh_defects.h"
+#include "support/joined.h"
+#include "support/shaken.h"
 #include "support/test_meshes.h"
 #include "support/volume_surface.h"
 
@@ -90,6 +93,99 @@ TEST_CASE(
   CHECK_THAT(refused.err, Contains("cannot be mapped: not closed: 3 boundary edges") &&
                               Contains("--all-components -o " + map + " --repair`") &&
                               !Contains("--component 1"));
+}
+
+TEST_CASE("repair: of several components all ways are told, and each that is typed works") {
+  const Folder folder;
+  const std::string mesh = folder / "ringed.obj", map = folder / "m.sph.ply";
+  write_bytes(mesh, obj_text(joined(icosphere(2), bumped_torus(8, 20, 0.4, 0, 1), {9, 0, 0})));
+  const Ended refused = sphparam_program({"map", mesh, "-o", map});
+  INFO(refused.err);
+  CHECK(refused.code == 4);
+  const std::string way = "--repair --all-components --max-handle ";
+  REQUIRE_THAT(refused.err, Contains(way) && Contains(" maps each into a file of its own.\n") &&
+                                Contains("`sphparam wrap "));
+  CHECK(type_advice(refused.err, folder / ".") >= 2);
+  const size_t at = refused.err.find(way) + way.size();
+  const std::string length = refused.err.substr(at, refused.err.find(' ', at) - at);
+  CHECK(sphparam_program(
+            {"map", mesh, "-o", map, "--repair", "--all-components", "--max-handle", length})
+            .code == 0);
+}
+
+TEST_CASE("repair: pieces that small errors keep apart are sent to --weld, which mends them") {
+  const Folder folder;
+  const std::string mesh = folder / "soup.obj", map = folder / "m.sph.ply";
+  write_bytes(mesh, obj_text(shaken_apart(icosphere(3), 1e-5)));
+  const Ended refused = sphparam_program({"map", mesh, "-o", map});
+  INFO(refused.err);
+  CHECK(refused.code == 4);
+  CHECK_THAT(refused.err, Contains("--repair --weld 0.0") && !Contains("--component"));
+  CHECK(type_advice(refused.err, folder / ".") >= 1);
+  const Ended told = sphparam_program({"info", mesh, "--json", "-"});
+  const Json repair = Json::parse(told.out)["repair"];
+  CHECK(repair["mends"] == false);
+  CHECK_THAT(repair["mends_with"].get<std::string>(), Contains("--repair --weld 0.0"));
+}
+
+TEST_CASE("repair: what is one-sided is sent to wrap, which takes it") {
+  const Folder folder;
+  const std::string mesh = folder / "band.obj";
+  write_bytes(mesh,
+              "v 2 0 -1\nv 2 0 1\nv -1 1.7 -0.5\nv -1 1.7 0.5\nv -1 -1.7 0.5\nv -1 -1.7 -0.5\n"
+              "f 1 2 3\nf 2 4 3\nf 3 4 5\nf 4 6 5\nf 5 6 2\nf 6 1 2\n");
+  const Ended refused = sphparam_program({"map", mesh, "-o", folder / "m.sph.ply"});
+  INFO(refused.err);
+  CHECK(refused.code == 4);
+  CHECK_THAT(refused.err, Contains("--repair cannot mend it") && Contains("`sphparam wrap "));
+  CHECK(type_advice(refused.err, folder / ".") == 1);
+}
+
+TEST_CASE("repair: faces without a place count among those lost, and are told to have no area") {
+  const Folder folder;
+  TriangleMesh mesh = icosphere(2);
+  mesh.positions(5, 0) = std::numeric_limits<double>::quiet_NaN();
+  const Ended mapped = sphparam_program(
+      {"map", "-", "-o", folder / "m.sph.ply", "--repair", "--json", "-"}, obj_text(mesh));
+  INFO(mapped.err);
+  REQUIRE(mapped.code == 0);
+  CHECK_THAT(mapped.err, Contains("kept 100 % of the area and 98.") && Contains(" of the faces") &&
+                             Contains(" faces had no area that can be measured"));
+  TriangleMesh speck = icosphere(0);
+  speck.positions *= 0.01;
+  const Ended dropped =
+      sphparam_program({"map", "-", "-o", folder / "m.sph.ply", "--repair", "--json", "-"},
+                       obj_text(joined(mesh, speck, {3, 0, 0})));
+  REQUIRE(dropped.code == 0);
+  CHECK(Json::parse(dropped.out)["components"]["faces_kept"] == Approx(315.0 / 340));
+}
+
+TEST_CASE("repair: a mesh without area has no shape, and is refused; the tiniest are mapped") {
+  const Folder folder;
+  const std::string map = folder / "m.sph.ply";
+  TriangleMesh flat = icosphere(2);
+  flat.positions.rightCols(2).setZero();
+  for (const double size : {0.0, 1.0}) {
+    const std::string text = obj_text(scaled(flat, size));
+    for (const bool mends : {false, true}) {
+      std::vector<std::string> line = {"map", "-", "-o", map};
+      if (mends) line.emplace_back("--repair");
+      const Ended refused = sphparam_program(line, text);
+      INFO(refused.err);
+      CHECK(refused.code == 4);
+      CHECK_THAT(refused.err, Contains("the surface has no area") && !Contains("merged"));
+    }
+    const Ended told = sphparam_program({"info", "-"}, text);
+    CHECK(told.code == 4);
+    CHECK_THAT(told.out, Contains("without area: it has no shape that could be mapped"));
+    CHECK(sphparam_program({"repair", "-", "-o", folder / "r.ply"}, text).code == 4);
+  }
+  CHECK_FALSE(std::filesystem::exists(map));
+  CHECK(sphparam_program({"map", "-", "-o", map}, obj_text(scaled(icosphere(2), 1e-150))).code ==
+        0);
+  TriangleMesh partly = icosphere(2);
+  for (Vertex v = 0; v < 60; ++v) partly.positions.row(v) = partly.positions.row(60);
+  CHECK(sphparam_program({"map", "-", "-o", map}, obj_text(partly)).code == 0);
 }
 
 TEST_CASE("repair: map --repair mends, certifies, and tells what it did") {

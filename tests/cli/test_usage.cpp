@@ -239,4 +239,16 @@ TEST_CASE("program: standard output that cannot be written ends with 3") {
   }
 }
 
+TEST_CASE("usage: where a format cannot keep a map, what is said to write it does") {
+  const auto told = [](const std::string& name) {
+    const Ended refused = sphparam_program({"map", "x.obj", "-o", name});
+    CHECK(refused.code == 2);
+    return refused.err;
+  };
+  CHECK_THAT(told("y.stl"), Contains(".stl cannot keep one; the sphere alone is written as .obj") &&
+                                !Contains("--write-sphere"));
+  CHECK_THAT(told("y.obj"), Contains("--write-sphere FILE writes the sphere alone as .obj"));
+  CHECK_THAT(told("y.glb"), Contains("`sphparam export` of the map writes .glb"));
+}
+
 }  // namespace sphparam::tests

@@ -6,6 +6,8 @@
 #include "sphparam/io/components.h"
 #include "sphparam/io/repair_advice.h"
 #include "support/joined.h"
+#include "support/one_sided.h"
+#include "support/shaken.h"
 #include "support/test_meshes.h"
 #include "support/volume_surface.h"
 
@@ -71,10 +73,11 @@ TEST_CASE("repair_advice: components are listed where one must be chosen") {
                          Contains("    it keeps 55.2 % of the area\n"));
 }
 
-TEST_CASE("repair_advice: --all-components is told as map's, a wrap where parts are many") {
+TEST_CASE("repair_advice: --all-components is told as map's, and a wrap, which keeps all in one") {
   const MeshSource two = source_of(two_balls(), "two.ply");
   CHECK_THAT(repair_advice(try_repair(two), two.path),
-             Contains("\n  --all-components maps each") && !Contains("wrap"));
+             Contains("\n  --all-components maps each") &&
+                 Contains("  `sphparam wrap two.ply -o wrapped.ply` draws one closed surface"));
   CHECK_THAT(repair_advice(try_repair(two), two.path, "sphparam bake two.ply"),
              !Contains("\n  --all-components") &&
                  Contains("`sphparam map two.ply --all-components -o parts.sph.ply` maps each"));
@@ -83,6 +86,92 @@ TEST_CASE("repair_advice: --all-components is told as map's, a wrap where parts 
   const MeshSource eleven = source_of(many, "many parts.ply");
   CHECK_THAT(repair_advice(try_repair(eleven), eleven.path),
              Contains("  `sphparam wrap 'many parts.ply' -o wrapped.ply` draws one"));
+}
+
+TEST_CASE("repair_advice: each component is said to be mapped by what all of them take") {
+  const MeshSource two = source_of(two_balls(), "two.ply");
+  CHECK(try_parts(two).as_they_are);
+  CHECK(try_parts(two).parts == 2);
+  const TriangleMesh ring = bumped_torus(8, 20, 0.4, 0, 1);
+  const MeshSource ringed = source_of(joined(icosphere(3), ring, {9, 0, 0}), "ringed.ply");
+  const PartsTrial parts = try_parts(ringed);
+  CHECK_FALSE(parts.as_they_are);
+  CHECK(parts.mended == 2);
+  CHECK(parts.are_enough());
+  REQUIRE(parts.options.longest_handle > RepairOptions{}.longest_handle);
+  const std::string each = all_components_line(parts.options);
+  CHECK_THAT(each, StartsWith("--repair --all-components --max-handle "));
+  CHECK_THAT(repair_advice(try_repair(ringed), ringed.path, "", parts),
+             Contains("and\n  " + each + " maps each into a file of its own.\n"));
+  for (MeshPart& part : connected_parts(ringed, {}))
+    CHECK(repaired(std::move(part.source), parts.options).inspection.is_sphere());
+}
+
+TEST_CASE("repair_advice: what no repair maps in its parts is not said to be mapped so") {
+  const MeshSource source =
+      source_of(joined(icosphere(1), projective_plane(), {4, 0, 0}), "odd.ply");
+  const PartsTrial parts = try_parts(source);
+  CHECK(parts.mended == 1);
+  CHECK_FALSE(parts.are_enough());
+  const std::string advice = repair_advice(try_repair(source), source.path, "", parts);
+  CHECK_THAT(advice, !Contains("--all-components") && Contains(" the largest.\n"));
+  TriangleMesh speck = projective_plane();
+  speck.positions *= 1e-3;
+  const MeshSource specked = source_of(joined(two_balls(), speck, {0, 4, 0}), "specked.ply");
+  CHECK(try_parts(specked).are_enough());
+  CHECK_THAT(repair_advice(try_repair(specked), specked.path, "", try_parts(specked)),
+             Contains("--repair --all-components maps all but 1 speck, each into a file"));
+}
+
+TEST_CASE(
+    "repair_advice: what repair cannot mend, a wrap is told for, unless there is no surface") {
+  const MeshSource plane = source_of(projective_plane(), "plane.ply");
+  REQUIRE_FALSE(try_repair(plane).can_mend());
+  CHECK_THAT(
+      repair_advice(try_repair(plane), plane.path),
+      Contains("This would remain:\n") && Contains("`sphparam wrap plane.ply -o wrapped.ply`"));
+  TriangleMesh nothing = icosphere(1);
+  nothing.triangles.resize(0, 3);
+  const MeshSource empty = source_of(nothing, "empty.ply");
+  CHECK_THAT(repair_advice(try_repair(empty), empty.path), !Contains("wrap"));
+  CHECK_THAT(repair_advice(try_repair(source_of(open_ball(), "a.ply")), "a.ply"),
+             !Contains("wrap"));
+}
+
+TEST_CASE("try_repair: pieces that small errors keep apart are welded, and nothing else is") {
+  const MeshSource soup = source_of(shaken_apart(icosphere(3), 1e-5), "soup.ply");
+  const RepairTrial trial = try_repair(soup);
+  REQUIRE(trial.can_mend());
+  CHECK(trial.options.weld_share >= 1e-5);
+  CHECK(trial.options.weld_share <= 1e-3);
+  CHECK(trial.options.component == 0);
+  CHECK_FALSE(trial.mends_unasked());
+  CHECK_FALSE(kept_share(trial));
+  const MeshSource whole = repaired(soup, trial.options);
+  CHECK(whole.file.mesh.vertex_count() == icosphere(3).vertex_count());
+  CHECK_THAT(repair_advice(trial, soup.path), StartsWith("  --repair --weld 0.0"));
+  // Of one's own: that is what is tried.
+  CHECK(try_repair_beyond(soup, {.weld_share = 1e-9}).options.weld_share == 1e-9);
+  CHECK(try_repair_beyond(soup, {.component = 2}).options.component == 2);
+  for (const auto& mesh : {two_balls(), open_ball(), joined(open_ball(), open_ball(), {3, 0, 0})})
+    CHECK(try_repair(source_of(mesh, "a.ply")).options.weld_share < 0);
+}
+
+TEST_CASE("refuse: of several components it says what each takes, and of one what it needs") {
+  try {
+    refuse(source_of(two_balls(), "two.ply"));
+  } catch (const PartsRefusal& refusal) {
+    CHECK(refusal.parts().parts == 2);
+    CHECK_THAT(repair_advice(refusal), Contains("\n  --all-components maps each"));
+    CHECK(kept_share(refusal.trial().value()) == Approx(1 / 1.81));
+  }
+  CHECK_THROWS_AS(refuse(source_of(two_balls(), "two.ply")), PartsRefusal);
+  try {
+    refuse(source_of(open_ball(), "a.ply"));
+  } catch (const MeshRefusal& refusal) {
+    CHECK_FALSE(dynamic_cast<const PartsRefusal*>(&refusal));
+    CHECK_FALSE(kept_share(refusal.trial().value()));
+  }
 }
 
 TEST_CASE("repair_advice: what is typed may be a command of one's own") {
@@ -169,11 +258,7 @@ TEST_CASE("repaired: what is left is told by the numbers of the file") {
 }
 
 TEST_CASE("try_repair: what even repair leaves is told by the numbers of the file") {
-  TriangleMesh plane;  // the projective one, of six vertices, after one that no face uses
-  plane.positions = icosphere(0).positions.topRows(7);
-  plane.triangles = Triangles{{1, 2, 3}, {1, 3, 4}, {1, 4, 5}, {1, 5, 6}, {1, 6, 2},
-                              {2, 3, 5}, {3, 4, 6}, {4, 5, 2}, {5, 6, 3}, {6, 2, 4}};
-  const RepairTrial trial = try_repair(source_of(plane, "plane.ply"));
+  const RepairTrial trial = try_repair(source_of(projective_plane(), "plane.ply"));
   REQUIRE(trial.remaining.size() == 1);
   const MeshDefect& left = trial.remaining[0];
   REQUIRE(left.kind == DefectKind::InconsistentOrientation);

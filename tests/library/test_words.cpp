@@ -56,6 +56,15 @@ TEST_CASE("words: what choosing a component kept, where one was dropped") {
   CHECK(kept_line(parts).empty());
 }
 
+TEST_CASE("words: faces that had no place are told where shares are of areas that are known") {
+  KeptParts parts;
+  parts.face_share = 0.9;
+  CHECK(kept_line(parts, {{RepairKind::HoleFilled, 3, {}, ""}}).empty());
+  CHECK(kept_line(parts, {{RepairKind::NonFiniteFaceRemoved, 6, {}, ""}}) ==
+        "kept 100 % of the area and 90 % of the faces, lost 0 % and 10 %; 6 faces had no area that "
+        "can be measured");
+}
+
 TEST_CASE("words: a stage tells what was measured, and nothing else") {
   StageRecord stage{.name = "harmonic", .seconds = 0.125};
   CHECK(stage_line(stage) == "harmonic: 0.125 s");

@@ -439,9 +439,14 @@ TEST_CASE("mesh_repair: faces without area go where the surface stays a sphere")
     CHECK(count(repaired, RepairKind::FlatFaceTurned) == 1);
     CHECK(repaired.inspection.defects.empty());
   }
-  SECTION("all in one place: whatever is done, it stays a sphere") {
-    mesh.positions.setZero();
-    check_is_sphere(repair_mesh(mesh));
+  SECTION("all in one place, or on a line: no face is worth more than another, so all stay") {
+    const bool on_a_line = GENERATE(false, true);
+    mesh.positions.rightCols(2).setZero();
+    if (!on_a_line) mesh.positions.setZero();
+    const RepairedMesh repaired = repair_mesh(mesh);
+    check_is_sphere(repaired);
+    CHECK(repaired.actions.empty());
+    CHECK(repaired.mesh.triangles == mesh.triangles);
   }
 }
 

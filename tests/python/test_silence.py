@@ -1,5 +1,6 @@
 """Nothing goes wrong in silence: colours, copies of vertices, values without room, maps that are not there."""
 
+import re
 import struct
 import warnings
 import zlib
@@ -8,7 +9,7 @@ import numpy as np
 import pytest
 
 import sphparam as sp
-from shapes import potato
+from shapes import octahedron, potato
 from sphparam._images import png_of
 
 V, F = potato(3)
@@ -234,6 +235,43 @@ def test_a_share_is_that_of_what_was_given():
     assert sp.map(sp.components(*two)[1]).mesh.area_share == pytest.approx(0.2)
 
 
+def hinged(size=0.5):
+    """An octahedron and a smaller one on the other side of one of its edges, which is theirs together."""
+    vertices, faces = octahedron()
+    along = vertices[2] - vertices[0]
+    foot = vertices[0] + np.outer((vertices - vertices[0]) @ along / 2, along)
+    other = foot - size * (vertices - foot)
+    number = np.array([0, 6, 2, 7, 8, 9])
+    return np.concatenate([vertices, other[[1, 3, 4, 5]]]), np.concatenate([faces, number[faces]])
+
+
+@pytest.mark.parametrize("beside", [False, True], ids=["one piece", "with a part beside"])
+def test_shares_are_of_parts_as_repair_finds_them(beside):
+    vertices, faces = hinged()
+    if beside:
+        vertices, faces = np.concatenate([vertices, 0.3 * V + 9]), np.concatenate([faces, F + len(vertices)])
+    corners = vertices[faces]
+    areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    for component, [first, last] in ((1, [0, 8]), (2, [8, 16])):
+        share = areas[first:last].sum() / areas.sum()
+        made = sp.repair(vertices, faces, component=component)
+        assert made.area_share == pytest.approx(share, rel=1e-12)
+        assert sp.components(vertices, faces, repair=True)[component - 1].area_share == pytest.approx(share)
+        if component == 1:
+            [told] = [line for line in refusal(vertices, faces).split("\n") if "component=1" in line]
+            assert told == f"map(mesh, repair=dict(component=1)) keeps {100 * share:.5g} % of the area:"
+
+
+def test_faces_without_a_place_have_no_area_to_be_kept():
+    vertices = V.copy()
+    vertices[4] = np.nan
+    assert sp.repair(vertices, F).area_share == 1
+    other = np.concatenate([vertices, 0.5 * V + 9]), np.concatenate([F, F + len(V)])
+    share = sp.repair(*other, component=2).area_share
+    assert 0.2 < share < 0.22
+    assert share == pytest.approx(sp.components(*other, repair=True)[1].area_share)
+
+
 # What to type, the best first.
 
 
@@ -250,6 +288,8 @@ def test_a_refusal_says_what_loses_least_first():
     assert "map(mesh, repair=dict(component=1)) keeps 80 % of the area:" in text and "mends it" not in text
     assert "sphparam.components(mesh, repair=True)" in refusal(two[0], two[1][1:])
     assert "repair=dict(keep_holes=True)) keeps the holes" in refusal(V, F[1:])
+    assert "sphparam.wrap(mesh).mesh is one closed surface about all of it" in text
+    assert "wrap" not in refusal(V, F[1:])
     assert refusal(V, F + 1) == (
         "faces: the indices count from 1: faces - 1 is what to pass; as they are, 6 faces name vertices that do not exist"
     )
@@ -287,3 +327,90 @@ def test_a_slip_is_answered_with_what_is_meant(use, error, words, painted, tmp_p
     with pytest.raises(error, match=words):
         use(painted)
     assert list(tmp_path.iterdir()) == []
+
+
+def typed(vertices, faces):
+    """What a refusal says to type, typed: lists of maps, maps and meshes."""
+    mesh = sp.Mesh(vertices, faces)
+    lines = [line for line in refusal(mesh, None).split("\n")[1:] if not line.startswith(" ")]
+    lines = [re.sub(r" (maps each component|is one closed surface|mends it|keeps ).*", "", line) for line in lines]
+    wanted = [line for line in lines if "mesh)" in line or "mesh, " in line]
+    names = {"map": lambda *m, **how: sp.map(*m, quality="draft", **how), "sphparam": sp, "mesh": mesh}
+    return {line: eval(line, names) for line in wanted}
+
+
+def ring(around=24, across=12):
+    """A torus."""
+    i, j = np.meshgrid(np.arange(around), np.arange(across), indexing="ij")
+    u, v = 2 * np.pi * i / around, 2 * np.pi * j / across
+    radius = 3 + 1.8 * np.cos(v)
+    vertices = np.stack([radius * np.cos(u), radius * np.sin(u), 1.8 * np.sin(v)], axis=-1).reshape(-1, 3)
+    at = lambda i, j: (i % around) * across + j % across
+    a, b, c, d = (x.ravel() for x in (at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)))
+    return vertices, np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)])
+
+
+def both(first, second):
+    return np.concatenate([first[0], second[0] + 20]), np.concatenate([first[1], second[1] + len(first[0])])
+
+
+@pytest.mark.parametrize(
+    "mesh, count",
+    [
+        (both((V, F), (0.5 * V, F)), 3),
+        (both((V, F), ring()), 3),  # whose handle is long
+        (both((V, F), (V, F[1:])), 3),
+        ((V, F[1:]), 2),
+        (hinged(), 3),
+        (ring(), 1),
+    ],
+    ids=["two", "a ring", "an open one", "open", "hinged", "ring"],
+)
+def test_what_a_refusal_says_to_type_works(mesh, count):
+    made = typed(*mesh)
+    assert len(made) == count
+    for line, found in made.items():
+        assert ("components" in line) == isinstance(found, list) and found
+        if line.startswith("sphparam.wrap"):
+            assert sp.inspect(found).is_sphere
+
+
+def test_what_cannot_be_mended_is_not_said_to_be():
+    band = np.array([[2, 0, -1], [2, 0, 1], [-1, 1.7, -0.5], [-1, 1.7, 0.5], [-1, -1.7, 0.5], [-1, -1.7, -0.5]])
+    faces = np.array([[0, 1, 2], [1, 3, 2], [2, 3, 4], [3, 5, 4], [4, 5, 1], [5, 0, 1]])
+    text = refusal(band, faces)
+    assert "repair cannot mend it" in text and "keep_holes" not in text
+    assert list(typed(band, faces)) == ["sphparam.wrap(mesh).mesh"]
+    several = refusal(*both((V, F), (0.3 * band, faces)))
+    assert "components(" not in several and "component=1" in several
+    band[3, 1] = np.nan
+    assert "wrap" not in refusal(band, faces)  # it takes places alone
+
+
+def test_pieces_that_errors_keep_apart_are_sent_to_a_weld():
+    pieces, faces = soup()
+    shaken = pieces + np.random.default_rng(3).uniform(-1e-5, 1e-5, pieces.shape)
+    [line] = [line for line in refusal(shaken, faces).split("\n") if "weld_share" in line and "keep_holes" not in line]
+    assert re.fullmatch(r"map\(mesh, repair=dict\(weld_share=[\d.e-]+\)\) mends it:", line)
+    [made] = [made for line, made in typed(shaken, faces).items() if "keep_holes" not in line]
+    assert len(made.vertices) == len(V)
+
+
+def test_files_are_refused_with_what_to_type_here(tmp_path):
+    sp.write(tmp_path / "a.off", V, F)
+    text = (tmp_path / "a.off").read_text().split("\n")
+    (tmp_path / "nan.off").write_text("\n".join([*text[:2], "nan 0 0", *text[3:]]))
+    (tmp_path / "twice.off").write_text("\n".join([*text[:-2], "3 5 5 6", ""]))
+    for name, option in (("nan", "non_finite"), ("twice", "repeated_corners")):
+        with pytest.raises(sp.ReadError, match=rf"read\(path, {option}=True\) takes the file") as caught:
+            sp.read(tmp_path / f"{name}.off")
+        assert "sphparam map" not in str(caught.value)
+        assert sp.map(sp.read(tmp_path / f"{name}.off", **{option: True}), repair=True).certificate.one_to_one
+
+
+def test_a_mesh_without_area_has_no_shape():
+    with pytest.raises(ValueError, match="no area"):
+        sp.map(V * [1, 0, 0], F)
+    with pytest.raises(ValueError, match="no area"):
+        sp.map(V * 0, F, repair=True)
+    assert sp.map(V * 1e-150, F).certificate.one_to_one

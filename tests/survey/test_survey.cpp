@@ -12,6 +12,8 @@
 #include "sphparam/io/safe_file.h"
 #include "sphparam/survey/survey.h"
 #include "support/joined.h"
+#include "support/one_sided.h"
+#include "support/shaken.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -167,37 +169,57 @@ TEST_CASE("survey: the page and the report name every file, its end and what to 
 
 TEST_CASE("survey: components that cannot be mapped are left out as map leaves them out") {
   const Meshes meshes;
-  const auto with_ring = [&](double size) {
-    const TriangleMesh ball = icosphere(2);
-    TriangleMesh ring = Meshes::torus(), mesh;
-    ring.positions = (size * ring.positions).array() + 20;
-    mesh.positions.resize(ball.vertex_count() + ring.vertex_count(), 3);
-    mesh.positions << ball.positions, ring.positions;
-    mesh.triangles.resize(ball.face_count() + ring.face_count(), 3);
-    mesh.triangles << ball.triangles,
-        (ring.triangles.array() + static_cast<int>(ball.vertex_count())).matrix();
-    return mesh;
+  const auto with_plane = [](double size) {
+    TriangleMesh plane = projective_plane();
+    plane.positions *= size;
+    return joined(icosphere(2), plane, {20, 20, 20});
   };
-  meshes.write("half.off", with_ring(0.5));
-  TriangleMesh three = with_ring(0.02);
-  const Eigen::Index vertices = three.vertex_count(), faces = three.face_count();
-  three.positions.conservativeResize(2 * vertices, 3);
-  three.positions.bottomRows(vertices) = three.positions.topRows(vertices).array() + 50;
-  three.triangles.conservativeResize(2 * faces, 3);
-  three.triangles.bottomRows(faces) =
-      three.triangles.topRows(faces).array() + static_cast<int>(vertices);
-  meshes.write("specks.off", three);
+  meshes.write("half.off", with_plane(0.5));
+  meshes.write("specks.off", joined(with_plane(0.02), with_plane(0.02), {50, 50, 50}));
   const Survey survey = survey_folder(meshes.folder.string(), {.picture_size = 0});
   const SurveyedMesh& specks = named(survey, "specks.off");
   REQUIRE(specks.best_way());
   CHECK(specks.best_way()->options == "--repair --all-components");
   CHECK(contains(specks.best_way()->told, "2 of 4 components map, with 99."));
   CHECK(contains(specks.best_way()->told, "left out: component 4 ("));
-  CHECK(contains(specks.best_way()->told, "of the area): genus 1"));
+  CHECK(contains(specks.best_way()->told, "one-sided"));
   CHECK_FALSE(specks.best_way()->drops_much());
   const SurveyedMesh& half = named(survey, "half.off");
   CHECK_FALSE(half.ways.back().certified);
   CHECK(half.ways.back().drops_much());
+}
+
+TEST_CASE("survey: components are tried with what all of them take, pieces of a soup with a weld") {
+  const Meshes meshes;
+  meshes.write("ringed.off", joined(icosphere(2), Meshes::torus(), {20, 20, 20}));
+  meshes.write("soup.ply", shaken_apart(icosphere(3), 1e-5));
+  const Survey survey = survey_folder(meshes.folder.string(), {.picture_size = 0});
+  const SurveyedMesh& ringed = named(survey, "ringed.off");
+  REQUIRE(ringed.best_way());
+  CHECK(ringed.best_way()->options.starts_with("--repair --all-components --max-handle "));
+  CHECK(ringed.best_way()->told == "2 of 2 components map");
+  const SurveyedMesh& soup = named(survey, "soup.ply");
+  CHECK(soup.end == SurveyEnd::MapsIfAsked);
+  REQUIRE(soup.best_way());
+  CHECK(soup.best_way()->options.starts_with("--repair --weld 0.0"));
+  CHECK(soup.best_way()->area_share == 1);
+}
+
+TEST_CASE("survey: of what cannot be mapped, or not as a whole, the page says how to wrap it") {
+  const Meshes meshes;
+  meshes.write("plane.off", projective_plane());
+  TriangleMesh point = icosphere(1);
+  point.positions.setConstant(3);
+  meshes.write("point.ply", point);
+  const Survey survey = survey_folder(meshes.folder.string(), {.picture_size = 0});
+  CHECK(named(survey, "plane.off").end == SurveyEnd::CannotMap);
+  CHECK(named(survey, "point.ply").end == SurveyEnd::CannotMap);
+  CHECK(contains(named(survey, "point.ply").reasons.at(0), "point.ply: the surface has no area"));
+  const std::string page = survey_page(survey);
+  CHECK(contains(page, "plane.off -o plane_wrap.ply"));
+  CHECK(contains(page, "two.off -o two_wrap.ply"));
+  for (const char* whole : {"open_wrap", "torus_wrap", "point_wrap", "ball_wrap", "broken_wrap"})
+    CHECK_FALSE(contains(page, whole));
 }
 
 TEST_CASE(

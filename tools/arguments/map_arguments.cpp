@@ -166,6 +166,15 @@ void settle_sphere(MapArguments& arguments) {
                                    arguments.input, "", "sphere", "");
 }
 
+/// What there is for a format that cannot keep a map.
+std::string what_writes(const std::string& extension) {
+  if (is_written("sphere" + extension))
+    return "--write-sphere FILE writes the sphere alone as " + extension;
+  if (extension == ".glb" || extension == ".gltf")
+    return "`sphparam export` of the map writes " + extension;
+  return "the sphere alone is written as " + written_extensions();
+}
+
 void require_sensible(const MapArguments& arguments) {
   if (arguments.output.empty() && arguments.sphere.empty())
     throw UsageMistake("nothing to write: give -o, the map, or --write-sphere, the bare sphere");
@@ -173,8 +182,8 @@ void require_sensible(const MapArguments& arguments) {
                      "the mesh, --pin, --align and --like");
   const std::string extension = inner_extension_of(arguments.output);
   if (!extension.empty() && !keeps_map(arguments.output)) {
-    throw UsageMistake("-o: the map is a PLY, .ply, or a polydata of VTK, .vtk or .vtp; for " +
-                       extension + " see --write-sphere");
+    throw UsageMistake("-o: the map is a PLY, .ply, or a polydata of VTK, .vtk or .vtp: " +
+                       extension + " cannot keep one; " + what_writes(extension));
   }
   require_sensible_parts(arguments);
   const bool is_named = !inner_extension_of(arguments.sphere).empty();

@@ -11,6 +11,7 @@
 #include "compare/comparison.h"
 #include "console/new_folder.h"
 #include "console/places.h"
+#include "io/inspected_source.h"
 #include "number_text.h"
 #include "records/comparison_record.h"
 #include "sphparam/records/verification_record.h"
@@ -122,6 +123,7 @@ int run_compare(CompareArguments& arguments) {
   const auto added = parse_added(arguments);
   const MeshSource source = read_mended(arguments.input, arguments.repair, session);
   require_mappable(source);
+  require_area(source);
   session.hold_signals();
   CompareOptions options = arguments.options;
   options.threads = session.threads();

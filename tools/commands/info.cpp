@@ -6,6 +6,7 @@
 #include "commands/command.h"
 #include "commands/sources.h"
 #include "console/places.h"
+#include "io/inspected_source.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/vertex_data.h"
 #include "sphparam/records/data_record.h"
@@ -53,14 +54,17 @@ int tell_data(const VertexData& data, InfoArguments& arguments, Session& session
 int tell_mesh(const MeshSource& source, InfoArguments& arguments, Session& session) {
   InspectionRecord record = {.source = source};
   if (!source.inspection.is_sphere()) record.repair = try_repair(source);
+  if (record.repair && record.repair->parts.refused) record.parts = try_parts(source);
   record.seconds = session.stopwatch.seconds();
   session.console.clear_progress();
   session.add_report([&] { return to_json(record); });
   if (!is_stream(arguments.json) && !arguments.quiet) session.files.add("-", to_text(record));
   session.publish();
-  if (source.inspection.is_sphere()) return Ok;
+  if (is_mappable(source)) return Ok;
   if (arguments.quiet)
-    print_error(display_name(arguments.input) + ": this is not a closed genus-0 mesh");
+    print_error(display_name(arguments.input) + (source.inspection.is_sphere()
+                                                     ? ": this mesh has no area"
+                                                     : ": this is not a closed genus-0 mesh"));
   return MeshUnusable;
 }
 

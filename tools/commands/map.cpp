@@ -10,6 +10,7 @@
 #include "commands/map_outputs.h"
 #include "commands/map_parts.h"
 #include "commands/sources.h"
+#include "io/inspected_source.h"
 #include "reports/map_wording.h"
 #include "sphere/distinct_directions.h"
 #include "sphparam/io/file_numbers.h"
@@ -140,6 +141,7 @@ void measure(const TriangleMesh& surface, const MapArguments& arguments, MapOutc
 
 MapOutcome compute(MeshSource source, const MapArguments& arguments, Session& session) {
   require_mappable(source);
+  require_area(source);
   const std::optional<MappedMesh> other = read_other(arguments, session);
   MapOutcome outcome = {
       .source = std::move(source), .method = arguments.method, .options = arguments.options};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include "arguments/limits.h"
@@ -11,6 +12,7 @@
 #include "commands/command.h"
 #include "commands/data_files.h"
 #include "console/places.h"
+#include "io/inspected_source.h"
 #include "io/shell_word.h"
 #include "reports/told_losses.h"
 #include "reports/told_repairs.h"
@@ -75,7 +77,12 @@ void tell_what_else(const RepairCommandArguments& arguments, RepairOptions wante
   if (component > 0) trial.options.component = component;
   const std::string command = "sphparam repair " + shell_file(arguments.input) + " " +
                               options_line(trial.options) + " -o " + shell_file(arguments.output);
-  std::fputs(repair_advice(trial, arguments.input, command).c_str(), stderr);
+  std::optional<PartsTrial> parts;
+  if (trial.parts.refused) {
+    parts = try_parts(source);
+    parts->as_they_are = parts->as_they_are && source.repairs.empty();
+  }
+  std::fputs(repair_advice(trial, arguments.input, command, parts).c_str(), stderr);
 }
 
 int run_repair(RepairCommandArguments& arguments) {
@@ -103,8 +110,8 @@ int run_repair(RepairCommandArguments& arguments) {
   session.publish();
   const std::string line = display_name(arguments.input) + ": " + outcome_line(source.inspection);
   session.console.say(line + " → " + output_name(arguments.output));
-  if (source.inspection.is_sphere()) return Ok;
-  if (!arguments.quiet) tell_what_else(arguments, wanted, source);
+  if (is_mappable(source)) return Ok;
+  if (!arguments.quiet && !source.inspection.is_sphere()) tell_what_else(arguments, wanted, source);
   if (arguments.quiet) print_error(line);
   return MeshUnusable;
 }

@@ -9,6 +9,7 @@
 #include "commands/command.h"
 #include "commands/sources.h"
 #include "console/places.h"
+#include "io/inspected_source.h"
 #include "records/comparison_record.h"
 #include "reports/told_losses.h"
 #include "showcase/report_page.h"
@@ -138,6 +139,7 @@ int run_report(ReportArguments& arguments) {
   const MeshSource source =
       read_mended(arguments.inputs.front(), arguments.repair, session, arguments.data);
   require_mappable(source);
+  require_area(source);
   session.hold_signals();
   const std::vector<PageEntry> entries = load_entries(arguments, source, session);
   for (const PageEntry& page_entry : entries) tell(page_entry, session.console);

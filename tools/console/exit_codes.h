@@ -35,8 +35,8 @@ inline constexpr ExitMeaning exit_meanings[] = {
     {UsageError, "the command line makes no sense"},
     {FileError, "a file cannot be read, parsed or written"},
     {MeshUnusable,
-     "the mesh is not a closed genus-0 manifold; or has no area or no sensible size, where lengths "
-     "matter"},
+     "the mesh is not a closed genus-0 manifold; or has no area; or, where lengths matter, no "
+     "sensible size"},
     {NotCertified,
      "the map is not one-to-one, or a pin, pole or meridian is not at its place; no map written "
      "but with --keep-folded"},

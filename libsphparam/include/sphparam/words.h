@@ -15,9 +15,10 @@ namespace sphparam {
 /// Several lines: every defect with its hint, indented by two.
 std::string defect_list(const std::vector<MeshDefect>& defects);
 
-/// "kept 99.7 % of the area and 98 % of the faces, lost 0.3 % and 2 %"; empty where no component
-/// was dropped.
-std::string kept_line(const KeptParts& parts);
+/// "kept 99.7 % of the area and 98 % of the faces, lost 0.3 % and 2 %", with "; 420 faces had no
+/// area that can be measured" where vertices without a place took faces with them; empty where
+/// nothing was dropped. actions: of the same repair.
+std::string kept_line(const KeptParts& parts, const std::vector<RepairAction>& actions = {});
 
 /// "cut along 5 edges, 2.13 long (1.2 % of the diagonal), about (1, 2, 3): area 0.31 added"; also
 /// "closed along …".

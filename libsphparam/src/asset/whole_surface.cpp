@@ -47,7 +47,7 @@ class Chooser {
       : asset_(asset), options_(options) {}
 
   WholeSurface choose() {
-    if (asset_.inspection.is_sphere()) {
+    if (is_mappable(asset_)) {
       if (auto mapped = mapped_with_chart(asset_))
         return whole(*std::move(mapped), WholeBy::Itself);
     } else {
@@ -113,7 +113,8 @@ class Chooser {
     auto [trial, repaired] = try_repair_unasked(asset_);
     if (!repaired) return std::nullopt;
     if (trial.parts.area_share < options_.least_kept) {
-      found_.push_back("repair would keep " + percent(trial.parts.area_share) + " of the area");
+      found_.push_back("repair would keep " + percent(trial.parts.area_share, 5) +
+                       " of the area and " + percent(trial.parts.face_share, 5) + " of the faces");
       return std::nullopt;
     }
     MeshSource& mended = *repaired;

@@ -9,6 +9,7 @@
 #include "mesh/triangle_geometry.h"
 #include "mesh/union_find.h"
 #include "sphparam/io/file_numbers.h"
+#include "sphparam/io/repair_advice.h"
 #include "sphparam/names.h"
 
 // Areas are of the mesh at unit size, and added in the order of the faces.
@@ -92,6 +93,38 @@ std::vector<MeshPart> connected_parts(MeshSource source, const RepairOptions& re
     result.push_back({source_of(source, numbered, part), share});
   }
   return result;
+}
+
+bool PartsTrial::are_enough() const {
+  return mended == parts || (mended > 0 && area_share >= RepairOptions{}.least_kept);
+}
+
+// Each part is tried as `map --all-components` maps it: by itself, after what comes before parts.
+PartsTrial try_parts(const MeshSource& source) {
+  PartsTrial trial;
+  const std::vector<MeshPart> parts = connected_parts(source, {});
+  trial.parts = std::ssize(parts);
+  trial.as_they_are = parts.front().source.repairs.empty();
+  double left_out = 0;
+  for (const MeshPart& part : parts) {
+    if (part.source.inspection.is_sphere()) {
+      ++trial.mended;
+      continue;
+    }
+    trial.as_they_are = false;
+    const RepairTrial of_part = try_repair(part.source);
+    const bool mends = of_part.can_mend() && of_part.options.component == 0;
+    if (!mends) {
+      left_out += part.area_share;
+      continue;
+    }
+    ++trial.mended;
+    RepairOptions& all = trial.options;
+    all.largest_hole = std::max(all.largest_hole, of_part.options.largest_hole);
+    all.longest_handle = std::max(all.longest_handle, of_part.options.longest_handle);
+  }
+  if (trial.mended < trial.parts) trial.area_share = 1 - left_out;
+  return trial;
 }
 
 }  // namespace sphparam

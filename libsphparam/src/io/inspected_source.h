@@ -11,4 +11,10 @@ bool is_inspected(const MeshSource& source);
 /// vertices are welded: inspection and topology. Requires: it is not inspected.
 MeshSource inspected(MeshSource source);
 
+/// Whether a map can be made of it: a closed genus-0 mesh, and one with a shape.
+bool is_mappable(const MeshSource& source);
+
+/// What is to be mapped has a shape. Throws: UnmeasurableMesh where no face has area.
+void require_area(const MeshSource& source);
+
 }  // namespace sphparam

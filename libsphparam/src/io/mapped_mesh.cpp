@@ -58,6 +58,7 @@ std::optional<WrittenMap> written_map(const MeshSource& source, const LoadOption
 }
 
 WrittenMap made_map(const MeshSource& source, ParameterizeOptions options) {
+  require_area(source);
   options.fillers = fillers_of(source.file);
   Parameterization result = parameterize(source.file.mesh, source.topology.value(), options);
   if (!result.certificate.bijective()) {

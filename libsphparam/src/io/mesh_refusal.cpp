@@ -10,6 +10,7 @@
 #include "io/repaired_file.h"
 #include "mesh/defect_places.h"
 #include "mesh/triangle_geometry.h"
+#include "mesh/weld_shares.h"
 #include "number_text.h"
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/io/losses.h"
@@ -109,6 +110,17 @@ std::optional<RepairTrial> affordable_trial(const MeshSource& source,
   }
 }
 
+/// What the parts need, where they must be chosen from.
+std::optional<PartsTrial> affordable_parts(const MeshSource& source,
+                                           const std::optional<RepairTrial>& trial) {
+  if (!trial || !trial->parts.refused) return std::nullopt;
+  try {
+    return try_parts(source);
+  } catch (const std::bad_alloc&) {
+    return std::nullopt;
+  }
+}
+
 /// All repairs, the way that these are done.
 RepairOptions all_as(const RepairOptions& wanted) {
   return {.component = wanted.component,
@@ -155,10 +167,73 @@ RepairTrial trial_of(const MeshSource& source, const RepairOptions& options, Rep
           by_file_numbers(std::move(mended.handles), source)};
 }
 
+/// With these, and with what more they take until the mesh is a sphere, or nothing is left to try.
+RepairTrial tried(const MeshSource& source, RepairOptions options) {
+  constexpr double any_length = std::numeric_limits<double>::max();  // in diagonals
+  KeptParts parts;
+  for (;;) {
+    RepairedMesh mended = repair_mesh(source.file.mesh, options);
+    if (options.component == 0) parts = mended.parts;
+    if (!mended.inspection.is_sphere()) {
+      if (mended.parts.refused && !options.only_whole) {
+        options.component = 1;
+        continue;
+      }
+      if (mended.largest_hole_left > 0) {
+        options.largest_hole = static_cast<int>(mended.largest_hole_left);
+        continue;
+      }
+      if (mended.shortest_handle_left > 0) {
+        options.longest_handle = any_length;
+        continue;
+      }
+    }
+    options.longest_handle = limit_for(mended.handles);
+    return trial_of(source, options, std::move(mended), std::move(parts));
+  }
+}
+
+/// How much a repair does to a surface besides making it one.
+long changes_in(const RepairTrial& trial) {
+  long changes = 0;
+  for (const RepairAction& done : trial.actions) {
+    const bool makes_one =
+        done.kind == RepairKind::VertexWelded || done.kind == RepairKind::UnusedVertexDropped;
+    if (!makes_one) changes += done.count;
+  }
+  return changes;
+}
+
+/// Where a mesh is in pieces because what belongs together is apart by small errors: the repair
+/// that welds it and keeps it whole, at the distance that leaves least to be done besides.
+std::optional<RepairTrial> tried_welding(const MeshSource& source, const RepairOptions& wanted) {
+  if (wanted.component > 0 || wanted.weld_share >= 0 || wanted.weld_length >= 0)
+    return std::nullopt;
+  std::optional<RepairTrial> best;
+  for (const double share : weld_shares(source.file.mesh)) {
+    RepairOptions options = all_as(wanted);
+    options.weld_share = share;
+    options.only_whole = true;
+    RepairTrial trial = tried(source, options);
+    trial.options.only_whole = false;
+    if (!trial.can_mend()) continue;
+    if (best && changes_in(*best) <= changes_in(trial)) break;  // from here on it gets worse
+    best = std::move(trial);
+    if (changes_in(*best) == 0) break;
+  }
+  return best;
+}
+
+[[noreturn]] void refuse_as(const MeshSource& left, std::optional<RepairTrial> trial,
+                            std::optional<PartsTrial> parts) {
+  if (trial && parts) throw PartsRefusal(left, std::move(*trial), std::move(*parts));
+  throw MeshRefusal(left, std::move(trial));
+}
+
 }  // namespace
 
 bool RepairTrial::mends_unasked() const {
-  return can_mend() && options.component == 0 &&
+  return can_mend() && options.component == 0 && options.weld_share < 0 &&
          options.largest_hole == RepairOptions{}.largest_hole &&
          options.longest_handle == RepairOptions{}.longest_handle;
 }
@@ -186,8 +261,8 @@ MeshSource repaired(MeshSource source, const RepairOptions& options) {
   if (result.inspection.is_sphere()) return with_repairs(std::move(source), std::move(result));
   // Components are numbered as they are in the mesh that was given.
   std::optional<RepairTrial> trial = affordable_trial(source, options);
-  source = with_repairs(std::move(source), std::move(result));
-  throw MeshRefusal(source, std::move(trial));
+  std::optional<PartsTrial> parts = affordable_parts(source, trial);
+  refuse_as(with_repairs(std::move(source), std::move(result)), std::move(trial), std::move(parts));
 }
 
 RepairTrial try_repair(const MeshSource& source, bool keep_holes) {
@@ -195,29 +270,10 @@ RepairTrial try_repair(const MeshSource& source, bool keep_holes) {
 }
 
 RepairTrial try_repair_beyond(const MeshSource& source, const RepairOptions& wanted) {
-  constexpr double any_length = std::numeric_limits<double>::max();  // in diagonals
-  RepairOptions options = all_as(wanted);
-  KeptParts parts;
-  for (;;) {
-    RepairedMesh mended = repair_mesh(source.file.mesh, options);
-    if (options.component == 0) parts = mended.parts;
-    if (!mended.inspection.is_sphere()) {
-      if (mended.parts.refused) {
-        options.component = 1;
-        continue;
-      }
-      if (mended.largest_hole_left > 0) {
-        options.largest_hole = static_cast<int>(mended.largest_hole_left);
-        continue;
-      }
-      if (mended.shortest_handle_left > 0) {
-        options.longest_handle = any_length;
-        continue;
-      }
-    }
-    options.longest_handle = limit_for(mended.handles);
-    return trial_of(source, options, std::move(mended), std::move(parts));
-  }
+  RepairTrial trial = tried(source, all_as(wanted));
+  if (!trial.parts.refused) return trial;
+  std::optional<RepairTrial> welded = tried_welding(source, wanted);
+  return welded ? std::move(*welded) : std::move(trial);
 }
 
 UnaskedRepair try_repair_unasked(const MeshSource& source) {
@@ -228,9 +284,14 @@ UnaskedRepair try_repair_unasked(const MeshSource& source) {
   return result;
 }
 
+void refuse(const MeshSource& source) {
+  std::optional<RepairTrial> trial = affordable_trial(source);
+  std::optional<PartsTrial> parts = affordable_parts(source, trial);
+  refuse_as(source, std::move(trial), std::move(parts));
+}
+
 void require_mappable(const MeshSource& source) {
-  if (source.inspection.is_sphere()) return;
-  throw MeshRefusal(source, affordable_trial(source));
+  if (!source.inspection.is_sphere()) refuse(source);
 }
 
 }  // namespace sphparam

@@ -25,8 +25,9 @@ std::string repeated_corners_advice() {
 }
 
 std::string non_finite_advice() {
-  return "; `sphparam map --repair` drops such vertices with their faces, `sphparam wrap` and "
-         "`sphparam asset` leave them out";
+  return "; `sphparam map --repair` drops such vertices with their faces, as --repair does "
+         "wherever "
+         "it is taken; `sphparam wrap` and `sphparam asset` leave them out";
 }
 
 std::string file_limit(std::uint64_t max_bytes) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mesh/triangle_geometry.h"
+#include "sphparam/mesh/triangle_mesh.h"
 
 namespace sphparam {
 
@@ -16,5 +17,9 @@ inline bool is_flat(const Vector3& a, const Vector3& b, const Vector3& c) {
       std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
   return triangle_area(a, b, c) <= flat_area * longest;
 }
+
+/// Whether any triangle has area, at any size that doubles have. Requires: faces name vertices that
+/// are there.
+bool has_area(const TriangleMesh& mesh);
 
 }  // namespace sphparam

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "mesh/box.h"
 #include "mesh/flat_face.h"
 #include "mesh/paired_faces.h"
 #include "mesh/repair_state.h"
@@ -95,24 +96,42 @@ class FlatFaceMender {
   PairedFaces faces_;
 };
 
-bool has_flat_face(const RepairState& state) {
+/// Some are, and some are not: where all are, there is no shape to keep, and nothing that one
+/// could be better than another for.
+bool is_flat_in_part(const RepairState& state) {
+  long flat = 0, others = 0;
   for (Face f = 0; f < state.face_count(); ++f) {
     const auto& [a, b, c] = state.faces[f];
-    if (!state.fillers[f] && is_flat(state.shape[a], state.shape[b], state.shape[c])) return true;
+    if (state.fillers[f]) continue;
+    is_flat(state.shape[a], state.shape[b], state.shape[c]) ? ++flat : ++others;
   }
-  return false;
+  return flat > 0 && others > 0;
 }
 
 }  // namespace
 
 void mend_flat_faces(RepairState& state) {
-  if (state.face_count() < 4 || !has_flat_face(state)) return;
+  if (state.face_count() < 4 || !is_flat_in_part(state)) return;
   const std::optional<Topology> topology =
       Topology::try_build(state.triangles(), state.vertex_count());
   if (!topology) return;
   std::vector<Halfedge> twin(state.faces.size() * 3);
   for (Halfedge h = 0; h < static_cast<Halfedge>(twin.size()); ++h) twin[h] = topology->twin(h);
   FlatFaceMender(state, std::move(twin)).run();
+}
+
+// In the unit box, so that squares neither overflow nor vanish; the first triangle ends it usually.
+bool has_area(const TriangleMesh& mesh) {
+  const Box box = box_of(mesh.positions);
+  const Vector3 centre = box.lower / 2 + box.upper / 2;
+  const double extent = (box.upper / 2 - box.lower / 2).maxCoeff();
+  if (!(extent > 0)) return false;
+  const auto place = [&](Vertex v) -> Vector3 { return (mesh.position(v) - centre) / extent; };
+  for (Face f = 0; f < static_cast<Face>(mesh.face_count()); ++f) {
+    const Triangles& faces = mesh.triangles;
+    if (!is_flat(place(faces(f, 0)), place(faces(f, 1)), place(faces(f, 2)))) return true;
+  }
+  return false;
 }
 
 }  // namespace sphparam

@@ -1,7 +1,8 @@
 #include "mesh/repair_state.h"
 
 // A vertex without a place takes its faces with it; the hole is filled by the steps that follow.
-// What is left gets its unit box anew, since no box holds NaN.
+// What is left gets its unit box anew, since no box holds NaN. These faces count among those that
+// were lost, but no area does: nobody knows theirs.
 
 namespace sphparam {
 
@@ -19,7 +20,9 @@ void remove_non_finite(RepairState& state) {
     kept_vertices[v] = 0;
     state.log(RepairKind::NonFiniteVertexDropped, {state.vertex_origin[v]});
   }
+  const auto all = static_cast<double>(state.face_count());
   state.keep_faces(kept);
+  if (all > 0) state.parts.face_share = state.face_count() / all;
   state.keep_vertices(kept_vertices);
   state.measure();
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "io/inspected_source.h"
 #include "number_text.h"
 #include "records/json_parts.h"
 #include "sphparam/io/fillers.h"
@@ -128,6 +129,7 @@ std::string to_json(const InspectionRecord& record) {
   const std::optional<ClosedHoles> closed = closed_holes(record.source.file);
   Json inspection = inspection_json(record.source.inspection);
   if (closed) inspection["area"] = closed->area;
+  if (record.source.inspection.is_sphere()) inspection["mappable"] = is_mappable(record.source);
   return text_of({{"sphparam", version},
                   {"command", "info"},
                   {"input", input_json(record.source)},
@@ -149,12 +151,14 @@ std::string to_text(const InspectionRecord& record) {
   if (!source.inspection.defects.empty()) {
     text += "What is odd or wrong:\n" + defect_list(source.inspection.defects);
   }
+  if (source.inspection.is_sphere() && !is_mappable(source))
+    return text + "A closed genus-0 mesh without area: it has no shape that could be mapped.\n";
   if (source.inspection.is_sphere()) {
     return text + (closed ? "With its fillers a closed genus-0 mesh" : "A closed genus-0 mesh") +
            ": it can be mapped.\n";
   }
   text += "This mesh cannot be mapped to a sphere as it is.\n";
-  return record.repair ? text + repair_advice(*record.repair, source.path) : text;
+  return record.repair ? text + repair_advice(*record.repair, source.path, "", record.parts) : text;
 }
 
 }  // namespace sphparam

@@ -1,5 +1,6 @@
 #include "sphparam/records/repair_record.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "number_text.h"
@@ -28,7 +29,13 @@ std::string to_json(const RepairRecord& record) {
 }
 
 std::string outcome_line(const MeshInspection& mended) {
-  if (mended.is_sphere()) return "a closed genus-0 mesh: it can be mapped";
+  const auto all_flat = [&](const MeshDefect& defect) {
+    return defect.kind == DefectKind::ZeroAreaFace && defect.count == mended.faces;
+  };
+  if (mended.is_sphere())
+    return std::ranges::any_of(mended.defects, all_flat)
+               ? "a closed genus-0 mesh without area: it has no shape that could be mapped"
+               : "a closed genus-0 mesh: it can be mapped";
   std::vector<std::string> reasons;
   for (const MeshDefect& defect : mended.defects)
     if (defect.fatal) reasons.push_back(defect.message);

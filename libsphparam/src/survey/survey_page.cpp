@@ -120,6 +120,18 @@ std::vector<SurveyedWay> sorted_ways(const SurveyedMesh& mesh) {
   return ways;
 }
 
+/// Whether what maps is not all of it in one.
+bool is_better_wrapped(const SurveyedMesh& mesh) {
+  const auto drops_much = [](const SurveyedWay& way) { return way.certified && way.drops_much(); };
+  const bool is_broken = was_read(mesh) && !mesh.defects.empty();
+  return is_broken &&
+         (mesh.end == SurveyEnd::CannotMap || std::ranges::any_of(mesh.ways, drops_much));
+}
+
+std::string name_of_wrap(const std::string& map) {
+  return map.substr(0, map.size() - std::string(".sph.ply").size()) + "_wrap.ply";
+}
+
 void add_mesh(Page& page, const Survey& survey, std::size_t k, const std::string& map) {
   const SurveyedMesh& mesh = survey.meshes[k];
   page.subheading(mesh.name, id_of(k));
@@ -133,6 +145,9 @@ void add_mesh(Page& page, const Survey& survey, std::size_t k, const std::string
   const std::string path = (std::filesystem::path(survey.folder) / mesh.name).string();
   for (const SurveyedWay& way : sorted_ways(mesh)) ways.push_back(line_of(way, path, map));
   add_list(page, "Tried:", ways);
+  if (is_better_wrapped(mesh))
+    add_list(page, "Not tried, one closed surface about all of it:",
+             {"sphparam wrap " + shell_file(path) + " -o " + shell_file(name_of_wrap(map))});
 }
 
 void add_section(Page& page, const Section& section, const Survey& survey,

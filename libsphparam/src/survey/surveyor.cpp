@@ -14,6 +14,7 @@
 #include "sphparam/io/components.h"
 #include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/mesh_source.h"
+#include "sphparam/io/repair_advice.h"
 #include "sphparam/names.h"
 #include "sphparam/words.h"
 #include "survey/defect_picture.h"
@@ -131,7 +132,7 @@ class Surveyor {
     MeshSource mended = repaired(source, trial.options);
     std::vector<std::string> stale;  // a map of the mesh before
     mended.file = written_as_mended(mended, stale);
-    way.told = kept_line(mended.parts);
+    way.told = kept_line(mended.parts, mended.repairs);
     if (!way.told.empty()) way.area_share = mended.parts.area_share;
     if (mesh_.ways.empty()) draw_mended(mended.file, way.options);
     try {
@@ -148,9 +149,10 @@ class Surveyor {
     if (trial.can_mend()) try_way(source, trial);
   }
 
-  /// Parts that cannot be mapped are left out as `map` leaves them out: specks.
+  /// With what all take that can be mapped. Parts that cannot are left out as `map` leaves them
+  /// out: specks.
   void try_components(const MeshSource& source) {
-    const RepairOptions repairs;
+    const RepairOptions repairs = try_parts(source).options;
     std::vector<MeshPart> parts = connected_parts(source, repairs);
     const std::size_t all = parts.size();
     std::size_t mapped = 0;
@@ -171,7 +173,7 @@ class Surveyor {
     const std::string kept =
         mapped < all ? ", with " + percent(1 - lost, 5) + " of the area" : std::string();
     const bool enough = mapped == all || (mapped > 0 && 1 - lost >= repairs.least_kept);
-    mesh_.ways.push_back({components_way, enough && !folds,
+    mesh_.ways.push_back({all_components_line(repairs), enough && !folds,
                           std::to_string(mapped) + " of " + std::to_string(all) +
                               " components map" + kept + left_out,
                           mapped == all ? 1 : 1 - lost});

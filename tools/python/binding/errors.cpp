@@ -2,6 +2,8 @@
 
 #include <pybind11/stl.h>
 
+#include <algorithm>
+
 #include "binding.h"
 #include "sphparam/bake/bake_errors.h"
 #include "sphparam/bake/fields.h"
@@ -11,6 +13,7 @@
 #include "sphparam/image/image_format.h"
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/io/read_options.h"
+#include "sphparam/io/repair_advice.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/mesh/mesh_repair.h"
 #include "sphparam/names.h"
@@ -34,24 +37,46 @@ void raise(const char* name, const std::exception& error) {
   PyErr_SetString(class_of(name).ptr(), error.what());
 }
 
-/// What repair would do to a mesh that was refused, as keyword arguments of `repair`.
-py::object advice(const RepairTrial& trial) {
+/// Of `repair`, those keyword arguments that are not as they are unasked.
+py::dict keywords(const RepairOptions& options) {
   py::dict wanted;
-  const RepairOptions &options = trial.options, defaults;
+  const RepairOptions defaults;
   if (options.keep_holes) wanted["keep_holes"] = true;
   if (options.component > 0) wanted["component"] = options.component;
+  if (options.weld_share >= 0) wanted["weld_share"] = options.weld_share;
   if (options.largest_hole != defaults.largest_hole) wanted["largest_hole"] = options.largest_hole;
   if (options.longest_handle != defaults.longest_handle) {
     wanted["longest_handle"] = options.longest_handle;
   }
-  py::list remaining = as_list(trial.remaining);
-  return py::make_tuple(wanted, as_list(trial.actions), remaining);
+  return wanted;
+}
+
+/// What the parts of a mesh need; None where nothing maps them all.
+py::object advice(const PartsTrial* parts) {
+  if (!parts || parts->mended < parts->parts) return py::none();
+  return py::make_tuple(parts->as_they_are, keywords(parts->options));
+}
+
+/// What would mend a mesh that was refused, and what else there is.
+py::object advice(const RepairTrial& trial, const PartsTrial* parts) {
+  const auto fills = [](const RepairAction& done) { return done.kind == RepairKind::HoleFilled; };
+  py::dict found;
+  found["options"] = keywords(trial.options);
+  found["actions"] = as_list(trial.actions);
+  found["remaining"] = as_list(trial.remaining);
+  found["kept"] = kept_share(trial);
+  found["fills"] = std::ranges::any_of(trial.actions, fills);
+  found["parts"] = advice(parts);
+  found["wrap"] = wrap_keeps_more(trial);
+  return std::move(found);
 }
 
 void raise_mesh_error(const MeshError& error) {
   const auto* const refusal = dynamic_cast<const MeshRefusal*>(&error);
+  const auto* const of_parts = dynamic_cast<const PartsRefusal*>(&error);
   py::object trial = py::none();
-  if (refusal && refusal->trial()) trial = advice(*refusal->trial());
+  if (refusal && refusal->trial())
+    trial = advice(*refusal->trial(), of_parts ? &of_parts->parts() : nullptr);
   const py::object type = class_of("MeshError");
   const py::object value = attribute(type, "_of")(as_list(error.defects()), trial);
   PyErr_SetObject(type.ptr(), value.ptr());

@@ -7,6 +7,7 @@
 #include "arrays.h"
 #include "binding.h"
 #include "call.h"
+#include "io/inspected_source.h"
 #include "map_request.h"
 #include "sphparam/frame_check.h"
 #include "sphparam/io/certified_files.h"
@@ -14,6 +15,7 @@
 #include "sphparam/io/fillers.h"
 #include "sphparam/io/map_files.h"
 #include "sphparam/io/mapped_mesh.h"
+#include "sphparam/io/repair_advice.h"
 #include "sphparam/io/upright_frame.h"
 #include "sphparam/io/verify_map.h"
 #include "sphparam/mesh/mesh_defects.h"
@@ -39,7 +41,7 @@ Topology topology_of(MeshSource& source) {
     return require_sphere(source.file.mesh);
   } catch (const MeshError&) {
     inspect_by_file_numbers(source);
-    throw MeshRefusal(source, try_repair(source));
+    sphparam::refuse(source);
   }
 }
 
@@ -47,7 +49,7 @@ Topology topology_of(MeshSource& source) {
   const auto mesh = std::make_shared<MeshSource>(source.mesh);
   call(py::none(), [mesh](const Progress&) {
     inspect_by_file_numbers(*mesh);
-    throw MeshRefusal(*mesh, try_repair(*mesh));
+    sphparam::refuse(*mesh);
     return true;
   });
   throw std::logic_error("a mesh was to be refused");
@@ -79,6 +81,7 @@ void by_file_numbers(Parameterization& result, const FileNumbers& numbers) {
 Mapped map_mesh(MeshSource source, Request request) {
   ParameterizeOptions& options = request.options;
   Topology topology = topology_of(source);
+  require_area(source);
   settle(request, source.file, topology);
   const Stopwatch stopwatch;
   const std::clock_t begin = std::clock();

@@ -151,7 +151,10 @@ void declare_meshes(py::module_& module) {
                              [](const Source& self) { return as_list(self.mesh.repairs); })
       .def_property_readonly("handles",
                              [](const Source& self) { return as_list(self.mesh.handles); })
-      .def_property_readonly("added_share", [](const Source& self) { return self.mesh.added_share; })
+      .def_property_readonly("added_share",
+                             [](const Source& self) { return self.mesh.added_share; })
+      .def_property_readonly("kept_share",
+                             [](const Source& self) { return self.mesh.parts.area_share; })
       .def("vertex_values",
            [](const Source& self) { return columns_of(self.mesh.file.vertex_properties); })
       .def("face_values",

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import re
-from typing import Any, List, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, List, Mapping, NamedTuple, Optional, Sequence, Tuple
 
 
 class Defect(NamedTuple):
@@ -40,7 +39,7 @@ class MeshError(ValueError):
         return str(self).split("\n")[1:]
 
     @classmethod
-    def _of(cls, rows: Sequence[Tuple[Any, ...]], trial: Optional[Tuple[Any, ...]]) -> MeshError:
+    def _of(cls, rows: Sequence[Tuple[Any, ...]], trial: Optional[Mapping[str, Any]]) -> MeshError:
         defects = [Defect(*row) for row in rows]
         return cls._instead(defects, _advice(defects, trial))
 
@@ -69,38 +68,40 @@ def _told(defects: Sequence[Defect]) -> List[str]:
     ]
 
 
-def _advice(defects: Sequence[Defect], trial: Optional[Tuple[Any, ...]]) -> List[str]:
-    """What to type: the parts of a mesh by themselves before one of them alone, holes kept after holes filled."""
-    kinds = {defect.kind: defect for defect in defects}
-    if "index-out-of-range" in kinds:
+def _advice(defects: Sequence[Defect], trial: Optional[Mapping[str, Any]]) -> List[str]:
+    """What to type: what keeps all of a mesh before what keeps one of its parts, holes kept after holes filled."""
+    if trial is None or any(defect.kind == "index-out-of-range" for defect in defects):
         return []
-    parts = kinds.get("several-components")
+    can_wrap = trial["wrap"] and all(defect.kind != "non-finite-position" for defect in defects)
+    whole = ["sphparam.wrap(mesh).mesh is one closed surface about all of it"] if can_wrap else []
+    if trial["remaining"]:
+        left = "; ".join(Defect(*row).message for row in trial["remaining"])
+        return [*_parts_advice(trial["parts"]), f"repair cannot mend it, this would remain: {left}", *whole]
+    kept, options = trial["kept"], trial["options"]
+    does = "mends it" if kept is None else f"keeps {100 * kept:.5g} % of the area"
+    lines = [*_parts_advice(trial["parts"]), *whole, f"map(mesh, repair={_as_typed(options)}) {does}:"]
+    lines += [f"  {message}" for _, _, _, message in trial["actions"]]
+    if trial["fills"] and not options.get("keep_holes"):
+        limits = {name: value for name, value in options.items() if name != "largest_hole"}
+        keeping = _as_typed({**limits, "keep_holes": True})
+        lines.append(f"map(mesh, repair={keeping}) keeps the holes, closed by what is no surface")
+    return lines
+
+
+def _parts_advice(parts: Optional[Tuple[bool, Mapping[str, Any]]]) -> List[str]:
+    """What maps each part of a mesh; nothing where that is not so of all."""
     if parts is None:
-        kept = ["map(mesh, repair=dict(keep_holes=True)) keeps the holes, closed by what is no surface"]
-        return _repair_advice(trial, "mends it") + (kept if "boundary-edge" in kinds and trial else [])
-    alone = all(defect is parts or not defect.fatal for defect in defects)
-    each = "map(part) for part in sphparam.components(mesh)"
-    if not alone:
-        each = "map(part, repair=True) for part in sphparam.components(mesh, repair=True)"
-    share = re.search(r"([\d.]+) % of the area", parts.message)
-    keeps = f"keeps {share[1]} % of the area" if share else "keeps one"
-    return [
-        f"[{each}] maps each component;",
-        *_repair_advice(trial, keeps),
-    ]
-
-
-def _repair_advice(trial: Optional[Tuple[Any, ...]], does: str) -> List[str]:
-    """What repair would do."""
-    if trial is None:
         return []
-    options, actions, remaining = trial
-    if remaining:
-        left = "; ".join(Defect(*row).message for row in remaining)
-        return [f"repair cannot mend it, this would remain: {left}"]
-    wanted = "dict(" + ", ".join(f"{k}={v!r}" for k, v in options.items()) + ")" if options else "True"
-    lines = [f"map(mesh, repair={wanted}) {does}:"]
-    return lines + [f"  {message}" for _, _, _, message in actions]
+    as_they_are, options = parts
+    each = "map(part) for part in sphparam.components(mesh)"
+    if not as_they_are:
+        each = f"map(part, repair={_as_typed(options)}) for part in sphparam.components(mesh, repair=True)"
+    return [f"[{each}] maps each component"]
+
+
+def _as_typed(options: Mapping[str, Any]) -> str:
+    """What ``repair=`` is given."""
+    return "dict(" + ", ".join(f"{name}={value!r}" for name, value in options.items()) + ")" if options else "True"
 
 
 class NotCertified(RuntimeError):

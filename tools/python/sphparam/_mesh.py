@@ -6,7 +6,7 @@ import os
 from typing import TYPE_CHECKING, Any, Dict, List, Mapping, NoReturn, Optional, Tuple, Union
 
 from . import _arrays, _core, _values
-from ._errors import Defect, MeshError, WriteError
+from ._errors import Defect, MeshError, ReadError, WriteError
 from ._figures import Action, HandleLoop, Inspection
 from ._losses import tell
 from ._numpy import np
@@ -267,9 +267,24 @@ def read(path: Path, *, repeated_corners: bool = False, non_finite: bool = False
     Raises FileNotFoundError, :class:`ReadError` with the place. Warns, as :class:`LossWarning`, of what
     the file carries and a mesh has no room for.
     """
-    source = _core.read(existing(path), repeated_corners, non_finite)
+    try:
+        source = _core.read(existing(path), repeated_corners, non_finite)
+    except ReadError as error:
+        raise ReadError(_as_typed_here(str(error))) from None
     tell(f"{path_of(path)}: {loss}" for loss in source.losses)
     return Mesh._of(source, source.is_sound)
+
+
+def _as_typed_here(refusal: str) -> str:
+    """What a file is refused for, with what to type in Python where the program names its own options."""
+    for command, option, does in (
+        ("; `sphparam map --repair`", "non_finite", "drops such vertices with their faces"),
+        ("; `sphparam map --repair=duplicates`", "repeated_corners", "removes such faces"),
+    ):
+        what, found, _ = refusal.partition(command)
+        if found:
+            return f"{what}; read(path, {option}=True) takes the file, and map(…, repair=True) {does}"
+    return refusal
 
 
 def write(path: Path, mesh: Any, faces: Any = None, *, values: Optional[Mapping[str, Any]] = None) -> None:

@@ -8,7 +8,7 @@ from . import _core
 from ._losses import tell
 from ._mesh import Mesh, any_mesh
 from ._progress import Progress, told
-from ._welding import kept_apart, lost_by_nearness, lost_by_welding, share_kept, welded
+from ._welding import kept_apart, lost_by_nearness, lost_by_welding, welded
 
 
 def repair(
@@ -116,7 +116,7 @@ def mended(
     made = Mesh._of(source, source.is_sound)
     made._welds = whole_mesh._welds
     tell(lost_by_nearness(whole_mesh, made))
-    made._share = share_kept(whole_mesh, made) if mesh._sound else mesh.area_share
+    made._share = mesh.area_share * source.kept_share
     return made
 
 

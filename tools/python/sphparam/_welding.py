@@ -79,21 +79,6 @@ def lost_by_nearness(given: Mesh, made: Mesh) -> Iterator[str]:
     )
 
 
-def share_kept(given: Mesh, made: Mesh) -> float:
-    """Of the area of a mesh that which is left of it once components were dropped."""
-    if not any(action.kind == "component-dropped" for action in made.repairs):
-        return given.area_share
-    areas = _areas(given)
-    kept = np.isin(given.vertex_origin, made.vertex_origin)[given.faces].all(axis=1)
-    total = areas.sum()
-    return float(given.area_share * areas[kept].sum() / total) if total > 0 else given.area_share
-
-
-def _areas(mesh: Mesh) -> Any:
-    a, b, c = (mesh.vertices[mesh.faces[:, k]] for k in range(3))
-    return np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
-
-
 def require_welded(mesh: Mesh) -> None:
     """Refuses arrays that repair would weld first, and says so before what else it would do.
 

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "sphparam/io/mesh_source.h"
 
@@ -20,10 +21,46 @@ struct UnaskedRepair {
 /// No more than what repair does unasked, once: whether that is enough.
 UnaskedRepair try_repair_unasked(const MeshSource& source);
 
+/// What the components of a mesh need to be mapped each by itself, as `map --all-components` does.
+struct PartsTrial {
+  long parts = 0, mended = 0;  // of all; of those, that can be mapped then
+  double area_share = 1;       // that these have
+  bool as_they_are = true;     // nothing is to be mended in any of them
+  RepairOptions options;       // that all those take
+  bool are_enough() const;     // all can be mapped, or all but specks
+};
+/// "--repair --all-components --max-handle 46.1%": what `map` is given to mend and map each part.
+std::string all_components_line(const RepairOptions& options);
+
+/// Cost: that of the repairs.
+PartsTrial try_parts(const MeshSource& source);
+
+/// The refusal of a mesh of several components that no repair keeps as one.
+class PartsRefusal : public MeshRefusal {
+ public:
+  PartsRefusal(const MeshSource& source, RepairTrial trial, PartsTrial parts)
+      : MeshRefusal(source, std::move(trial)), parts_(std::move(parts)) {}
+  const PartsTrial& parts() const { return parts_; }
+
+ private:
+  PartsTrial parts_;
+};
+
+/// Throws: PartsRefusal; another MeshRefusal.
+[[noreturn]] void refuse(const MeshSource& source);
+
+/// Of the area, what the mended mesh would have of what was there; nothing where that is all.
+std::optional<double> kept_share(const RepairTrial& trial);
+
+/// Whether a wrap about the mesh keeps more than the repair that was tried: all of it.
+bool wrap_keeps_more(const RepairTrial& trial);
+
 /// Several lines for people: what repair would do to the mesh of this file and what to type, or
-/// that it cannot help and why. `command`: what to type; empty: a plain `sphparam map`.
+/// that it cannot help and why. `command`: what to type; empty: a plain `sphparam map`. `parts`:
+/// where the mesh is in several that must be chosen from.
 std::string repair_advice(const RepairTrial& trial, const std::string& path,
-                          const std::string& command = "");
+                          const std::string& command = "",
+                          const std::optional<PartsTrial>& parts = std::nullopt);
 
 /// The same of a mesh that was refused, and what had been done to it before.
 std::string repair_advice(const MeshRefusal& refusal, const std::string& command = "");

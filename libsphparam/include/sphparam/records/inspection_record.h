@@ -4,6 +4,7 @@
 #include <string>
 
 #include "sphparam/io/mesh_source.h"
+#include "sphparam/io/repair_advice.h"
 
 namespace sphparam {
 
@@ -13,6 +14,7 @@ struct InspectionRecord {
   const MeshSource& source;
   std::optional<RepairTrial> repair = {};  // of a mesh that cannot be mapped as it is
   double seconds = 0;
+  std::optional<PartsTrial> parts = {};  // where components must be chosen from
 };
 
 /// As `sphparam info --json` tells it.

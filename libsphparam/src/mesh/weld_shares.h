@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include "sphparam/mesh/triangle_mesh.h"
+
+namespace sphparam {
+
+/// Distances, in diagonals of the bounding box, within which nearly every vertex on a boundary has
+/// another one, though edges of the boundary are much longer: at which welding
+/// (`RepairOptions::weld_share`) may join what only small errors keep apart. 1, 2 or 5 times powers
+/// of ten, the smallest first; none: there is no such distance, or some vertex has no place. Ours:
+/// the data says which distances are errors and which are shape, where there is a gap between the
+/// two. Cost: O(#F log #F).
+std::vector<double> weld_shares(const TriangleMesh& mesh);
+
+}  // namespace sphparam

@@ -1,0 +1,48 @@
+#include <catch2/catch.hpp>
+#include <limits>
+
+#include "mesh/weld_shares.h"
+#include "support/joined.h"
+#include "support/shaken.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+
+using Shares = std::vector<double>;
+
+TEST_CASE("weld_shares: above the errors of a mesh, and well below its edges, at any size") {
+  const Shares usual = weld_shares(shaken_apart(icosphere(3), 1e-5));
+  CHECK(usual == Shares{5e-5, 1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3});
+  CHECK(weld_shares(shaken_apart(icosphere(3), 1e-7)).front() == 5e-7);
+  CHECK(weld_shares(shaken_apart(icosphere(5), 1e-5)).back() == 2e-3);
+  CHECK(weld_shares(shaken_apart(icosphere(3), 1e-2)).empty());
+  for (const double size : {1e-150, 1e150}) {
+    TriangleMesh mesh = shaken_apart(icosphere(3), 1e-5);
+    mesh.positions *= size;
+    CHECK(weld_shares(mesh) == usual);
+  }
+}
+
+TEST_CASE("weld_shares: none where boundaries are the shape's, or nothing has a place") {
+  TriangleMesh open = icosphere(3);
+  open.triangles.conservativeResize(open.face_count() - 20, 3);
+  CHECK(weld_shares(open).empty());
+  CHECK(weld_shares(joined(open, open, {3, 0, 0})).empty());
+  CHECK(weld_shares(icosphere(2)).empty());
+  CHECK(weld_shares({}).empty());
+  TriangleMesh point = shaken_apart(icosphere(1), 0);
+  point.positions.setZero();
+  CHECK(weld_shares(point).empty());
+  TriangleMesh absent = shaken_apart(icosphere(1), 1e-5);
+  absent.positions(3, 1) = std::numeric_limits<double>::quiet_NaN();
+  CHECK(weld_shares(absent).empty());
+}
+
+TEST_CASE("weld_shares: a tenth of short edges, few single vertices and odd faces change nothing") {
+  TriangleMesh mesh = joined(shaken_apart(icosphere(3), 1e-5), octahedron(), {0, 0, 0});
+  mesh.triangles.conservativeResize(mesh.face_count() - 1, 3);  // a hole with three vertices
+  mesh.triangles(0, 0) = 1 << 20;
+  mesh.triangles(1, 1) = -3;
+  CHECK(weld_shares(mesh) == weld_shares(shaken_apart(icosphere(3), 1e-5)));
+}
