@@ -6,6 +6,7 @@
 #include <string>
 
 #include "program.h"
+#include "sphparam/group/surface_size.h"
 #include "sphparam/io/mesh_reader.h"
 #include "support/test_meshes.h"
 
@@ -15,6 +16,7 @@ namespace sphparam::tests {
 namespace {
 
 using Catch::Contains;
+using Catch::Detail::Approx;
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
@@ -126,6 +128,87 @@ TEST_CASE("group: tables have a row a shape, a vertex, a landmark, and a header"
   row >> found.x() >> found.y() >> found.z();
   CHECK((found - last.position(0)).norm() < 0.8);  // of a length of 6.8
   CHECK_THAT(bytes_of(eggs.in_out("index.html")), !Contains("image/png"));
+}
+
+TEST_CASE(
+    "group: size is that of the written shape, mean_size their mean, to which --scale brings") {
+  const Eggs eggs;
+  for (const bool scale : {false, true}) {
+    std::vector<std::string> more{"--size", "0", "--rounds", "0", "--start", "rotation"};
+    if (scale) more.emplace_back("--scale");
+    const Ended ended = eggs.group(more);
+    INFO(ended.err);
+    REQUIRE(ended.code == 0);
+    const Json report = Json::parse(bytes_of(eggs.in_out("group.json")));
+    const auto rows = lines_of(bytes_of(eggs.in_out("shapes.tsv")));
+    const auto written_size = [&](const std::string& name) {
+      return surface_size(read_mesh(fs::path(eggs.in_out(name))).mesh);
+    };
+    double sum = 0;
+    for (size_t i = 0; i < 3; ++i) {
+      const Json& shape = report["shapes"][i];
+      const double size = shape["size"];
+      const std::string name = shape["name"];
+      CHECK(written_size("shape_" + name + ".sph.ply") ==
+            Approx(scale ? double(report["mean_size"]) : size).epsilon(1e-12));
+      CHECK(double(shape["scale"]) * size ==
+            Approx(scale ? double(report["mean_size"]) : size).epsilon(1e-12));
+      std::istringstream row(rows[i + 1]);
+      std::string shape_name, start;
+      double energy = 0, in_table = 0;
+      row >> shape_name >> start >> energy >> in_table;
+      CHECK(in_table == size);
+      sum += size;
+    }
+    CHECK(double(report["mean_size"]) == Approx(sum / 3).epsilon(1e-12));
+    CHECK(double(report["size_of_mean"]) == Approx(written_size("mean.sph.ply")).epsilon(1e-12));
+  }
+}
+
+TEST_CASE(
+    "group: what was mended of a shape is in the record as map has it, the table and the page") {
+  const Eggs eggs;
+  // A hole in one of them, and a speck beside it.
+  TriangleMesh holed = read_mesh(fs::path(eggs.paths[1])).mesh;
+  holed.triangles.conservativeResize(holed.triangles.rows() - 1, 3);
+  const auto vertex = [&](int k) { return " " + std::to_string(holed.vertex_count() + k); };
+  write_bytes(eggs.paths[1], obj_text(holed) + "v 9 9 9\nv 9.1 9 9\nv 9 9.1 9\nv 9 9 9.1\nf" +
+                                 vertex(1) + vertex(3) + vertex(2) + "\nf" + vertex(1) + vertex(2) +
+                                 vertex(4) + "\nf" + vertex(2) + vertex(3) + vertex(4) + "\nf" +
+                                 vertex(1) + vertex(4) + vertex(3) + "\n");
+  const std::string record = eggs.folder / "map.json";
+  REQUIRE(sphparam_program(
+              {"map", eggs.paths[1], "--repair", "-o", eggs.folder / "m.sph.ply", "--json", record})
+              .code == 0);
+  const Ended ended = eggs.group({"--repair", "--size", "0", "--rounds", "0", "--hold"});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  const Json report = Json::parse(bytes_of(eggs.in_out("group.json"))),
+             map = Json::parse(bytes_of(record));
+  for (const char* key : {"repairs", "handles", "added", "components"}) {
+    INFO(key);
+    CHECK(report["shapes"][1][key] == map[key]);
+  }
+  CHECK(report["shapes"][1]["repairs"].size() >= 2);
+  CHECK(report["shapes"][0]["repairs"].empty());
+  CHECK(report["shapes"][0]["components"].is_null());
+  CHECK(report["template_mended"].is_null());
+  const auto rows = lines_of(bytes_of(eggs.in_out("shapes.tsv")));
+  CHECK_THAT(rows[0], Catch::EndsWith("\trepairs"));
+  CHECK_THAT(rows[1], Catch::EndsWith("\t"));
+  CHECK_THAT(rows[2], Contains("hole-filled 1") && Contains("; "));
+  CHECK_THAT(bytes_of(eggs.in_out("index.html")), Contains("Mended before they were mapped") &&
+                                                      Contains("egg1: 1 ") && Contains("kept 9"));
+
+  // A template that counts for nothing else is told of, too.
+  const Ended other =
+      sphparam_program({"group", eggs.paths[0], "--template", eggs.paths[1], "--repair", "--hold",
+                        "--grid", "ico:2", "--size", "0", "-o", eggs.out});
+  INFO(other.err);
+  REQUIRE(other.code == 0);
+  CHECK(Json::parse(bytes_of(eggs.in_out("group.json")))["template_mended"]["repairs"] ==
+        map["repairs"]);
+  CHECK_THAT(bytes_of(eggs.in_out("index.html")), Contains("template egg1.obj: "));
 }
 
 TEST_CASE("group: the same bytes for 1 and 3 threads") {

@@ -61,6 +61,22 @@ std::vector<MappedMesh> copies(const TriangleMesh& mesh) {
   return result;
 }
 
+/// RMS distance from the centroid by area, as integrals of the six products of corners.
+double size_by_area(const TriangleMesh& mesh) {
+  double area = 0;
+  Vector3 first = Vector3::Zero();
+  double second = 0;
+  for (Face f = 0; f < mesh.face_count(); ++f) {
+    const Vector3 a = mesh.position(mesh.triangles(f, 0)), b = mesh.position(mesh.triangles(f, 1)),
+                  c = mesh.position(mesh.triangles(f, 2));
+    const double here = (b - a).cross(c - a).norm() / 2;
+    area += here;
+    first += here * (a + b + c) / 3;
+    second += here * (a.dot(a) + b.dot(b) + c.dot(c) + a.dot(b) + b.dot(c) + c.dot(a)) / 6;
+  }
+  return std::sqrt(second / area - (first / area).squaredNorm());
+}
+
 double rms(const Points& a, const Points& b) {
   return std::sqrt((a - b).squaredNorm() / static_cast<double>(a.rows()));
 }
@@ -220,6 +236,58 @@ TEST_CASE("group: deviations are those of the aligned shapes") {
   CHECK(of_one_size.deviation.maxCoeff() < 1e-12);
   CHECK(of_one_size.distances.maxCoeff() < 1e-12);
   CHECK(group.distances(0, 1) > 0.1);
+}
+
+TEST_CASE("group: a size is the shape's own, whoever else is there, and scaling brings all to it") {
+  const SphereMap sphere{grid_sphere(small_grid).positions};
+  std::vector<MappedMesh> shapes;  // the longer, the more of its area lies far out
+  for (const double length : {1.5, 3.0, 6.0})
+    shapes.push_back(mapped(bumpy(small_grid, length), sphere));
+  GroupOptions options{.start = GroupStart::Maps, .hold = true, .grid = small_grid};
+  const Group group = make_group(shapes, shapes[0], options);
+  double sum = 0;
+  for (size_t i = 0; i < shapes.size(); ++i) {
+    const double size = group.members[i].size;
+    CHECK(size == Approx(size_by_area(shapes[i].mesh())).epsilon(1e-12));
+    CHECK(make_group({shapes[i]}, shapes[i], options).members[0].size == size);
+    sum += size;
+  }
+  options.scale = true;
+  const Group scaled = make_group(shapes, shapes[0], options);
+  for (size_t i = 0; i < shapes.size(); ++i) {
+    const GroupMember& member = scaled.members[i];
+    CHECK(member.size == group.members[i].size);
+    CHECK(member.motion.scale * member.size == Approx(sum / 3).epsilon(1e-12));
+    CHECK(size_by_area(aligned_shape(scaled, i).mesh()) == Approx(sum / 3).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("group: shapes on the grid have what their vertices have, but normals") {
+  MeshFile file;
+  file.mesh = bumpy(small_grid);
+  const SphereMap sphere{grid_sphere(small_grid).positions};
+  std::vector<double> height, label;
+  for (Vertex v = 0; v < file.mesh.vertex_count(); ++v) {
+    height.push_back(file.mesh.positions(v, 2));
+    label.push_back(v % 5);
+  }
+  for (const char* name : {"nx", "ny", "nz", "height"})
+    file.set_vertex_property({name, ScalarType::Float64, height});
+  file.set_vertex_property({"label", ScalarType::Int32, label});
+  const MappedMesh shape = mapped(file, sphere);
+  const Group group = make_group({shape, shape}, shape,
+                                 {.start = GroupStart::Maps, .hold = true, .grid = small_grid});
+  for (const MappedMesh& on_grid : {group.members[1].resampled, aligned_shape(group, 1)}) {
+    const Property* const found = on_grid.file().find_vertex_property("height");
+    REQUIRE(found != nullptr);
+    CHECK(found->values == height);
+    const Property* const labels = on_grid.file().find_vertex_property("label");
+    REQUIRE(labels != nullptr);
+    CHECK(labels->type == ScalarType::Int32);
+    CHECK(labels->values == label);
+    CHECK(on_grid.file().find_vertex_property("nx") == nullptr);
+  }
+  CHECK(group.mean.file().vertex_properties.empty());
 }
 
 TEST_CASE("group: the same bits for any number of threads") {

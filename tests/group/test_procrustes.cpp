@@ -68,6 +68,25 @@ TEST_CASE(
   CHECK(farthest(rigid.shapes[0], rigid.shapes[1]) > 0.5);
 }
 
+TEST_CASE("procrustes: sizes that are given are those which are brought to their mean") {
+  const Points shape = some_shape(4);
+  const VectorX weights = some_weights(shape.rows());
+  const std::vector<Points> copies{shape, shape, shape};
+  ProcrustesOptions options{.scale = true, .sizes = Eigen::Vector3d(1, 2, 0)};
+  const Procrustes found = align_by_procrustes(copies, shape, weights, options);
+  CHECK(found.motions[0].scale == 1);
+  CHECK(found.motions[1].scale == 0.5);
+  CHECK(found.motions[2].scale == 1);  // it has no size
+  options.sizes = Eigen::Vector2d(1, 2);
+  CHECK_THROWS_WITH(align_by_procrustes(copies, shape, weights, options),
+                    Catch::Contains("not as many as shapes"));
+  for (const double bad : {-1.0, std::nan("")}) {
+    options.sizes = Eigen::Vector3d(1, bad, 1);
+    CHECK_THROWS_WITH(align_by_procrustes(copies, shape, weights, options),
+                      Catch::StartsWith("sizes is"));
+  }
+}
+
 TEST_CASE("procrustes: no small motion of a shape comes nearer to the mean, by the weights") {
   std::vector<Points> shapes;
   for (unsigned seed = 1; seed <= 4; ++seed)

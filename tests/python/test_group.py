@@ -39,6 +39,24 @@ def test_every_map_is_proved_and_figures_are_those_of_the_shapes(group, shapes):
     assert (group.distances == group.distances.T).all() and group.starts == ["template", "rotation", "rotation"]
 
 
+def size_by_area(vertices, faces):
+    a, b, c = (vertices[faces[:, k]] for k in range(3))
+    area = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+    centroid = (area[:, None] * (a + b + c)).sum(0) / 3 / area.sum()
+    a, b, c = a - centroid, b - centroid, c - centroid
+    squares = sum((x * y).sum(1) for x, y in ((a, a), (b, b), (c, c), (a, b), (b, c), (c, a))) / 6
+    return np.sqrt((area * squares).sum() / area.sum())
+
+
+def test_sizes_are_those_of_each_shape_alone_and_scale_brings_all_to_their_mean(shapes, group):
+    faces = group.mean.faces
+    assert group.sizes == pytest.approx([size_by_area(shape, faces) for shape in group.aligned])
+    scaled = sp.group(shapes, start="rotation", grid="ico:4", scale=True)
+    assert scaled.sizes == pytest.approx(group.sizes, rel=1e-2)  # the mean that maps are moved to is another
+    one = np.mean(scaled.sizes)
+    assert [size_by_area(shape, faces) for shape in scaled.aligned] == pytest.approx([one] * len(shapes))
+
+
 def test_the_same_for_any_number_of_threads(shapes, group):
     one = sp.group(shapes, start="rotation", grid="ico:4", threads=1)
     assert (one.aligned == group.aligned).all()

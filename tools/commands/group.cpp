@@ -88,10 +88,18 @@ void require_other_files(const GroupArguments& arguments) {
   check_places(outputs, arguments.folder);
 }
 
+struct ReadShape {
+  MappedMesh mapped;
+  MendedShape mended;
+};
+
 /// Which file a refusal is about, which tells what is wrong with a mesh.
-MappedMesh read_shape(const std::string& path, const GroupArguments& arguments,
-                      Session& session) try {
-  return read_mapped(path, "", session, arguments.repair);
+ReadShape read_shape(const std::string& path, const GroupArguments& arguments,
+                     Session& session) try {
+  session.hold_signals();
+  MeshSource source = read_mended(path, arguments.repair, session);
+  MendedShape mended = what_was_mended(source);
+  return {map_source(std::move(source), "", session, arguments.repair), std::move(mended)};
 } catch (const MeshRefusal&) {
   print_error(display_name(path) + " cannot be mapped:");
   throw;
@@ -102,9 +110,14 @@ const std::string& reference_of(const GroupArguments& arguments) {
   return arguments.reference.empty() ? arguments.inputs.front() : arguments.reference;
 }
 
-std::vector<MappedMesh> read_shapes(const GroupArguments& arguments, const MappedMesh& reference,
-                                    Session& session) {
-  std::vector<MappedMesh> shapes;
+bool is_shape(const std::string& path, const GroupArguments& arguments) {
+  return std::ranges::any_of(arguments.inputs,
+                             [&](const std::string& shape) { return is_same_place(shape, path); });
+}
+
+std::vector<ReadShape> read_shapes(const GroupArguments& arguments, const ReadShape& reference,
+                                   Session& session) {
+  std::vector<ReadShape> shapes;
   for (const std::string& path : arguments.inputs)
     shapes.push_back(is_same_place(path, reference_of(arguments))
                          ? reference
@@ -159,22 +172,30 @@ int run_group(GroupArguments& arguments) {
   require_other_files(arguments);
   NewFolder folder(arguments.folder);
   Session session(arguments);
-  const MappedMesh reference = read_shape(reference_of(arguments), arguments, session);
+  const ReadShape reference = read_shape(reference_of(arguments), arguments, session);
   std::vector<TemplateLandmark> landmarks;  // before all others: a slip should not cost hours
   if (!arguments.landmarks.empty())
-    landmarks = read_template_landmarks(arguments.landmarks, FileNumbers(reference.file()));
-  const std::vector<MappedMesh> shapes = read_shapes(arguments, reference, session);
+    landmarks = read_template_landmarks(arguments.landmarks, FileNumbers(reference.mapped.file()));
+  std::vector<MappedMesh> shapes;
+  std::vector<MendedShape> mended;
+  for (ReadShape& shape : read_shapes(arguments, reference, session)) {
+    shapes.push_back(std::move(shape.mapped));
+    mended.push_back(std::move(shape.mended));
+  }
   GroupOptions options = arguments.options;
   options.threads = session.threads();
   options.progress = session.progress();
-  const Group group = make_group(shapes, reference, options);
+  const Group group = make_group(shapes, reference.mapped, options);
   GroupRecord record{.group = group,
                      .options = options,
                      .files = arguments.inputs,
                      .names = names_of_shapes(arguments.inputs),
                      .mapped_now = mapped_now(shapes),
                      .reference = reference_of(arguments),
-                     .landmarks = landmarks};
+                     .landmarks = landmarks,
+                     .mended = std::move(mended),
+                     .reference_mended = {}};
+  if (!is_shape(reference_of(arguments), arguments)) record.reference_mended = reference.mended;
   session.warn(group_warnings(record));
   record.seconds = session.stopwatch.seconds();
   folder.make();

@@ -27,18 +27,20 @@ namespace {
 /// The repairs that are wanted, done by one of the library's two ways, and told.
 template <class Mend>
 MeshSource told_mended(MeshSource source, const RepairArguments& repair, Session& session,
-                       Mend&& mend) try {
+                       Mend&& mend) {
   const std::optional<RepairOptions> wanted = wanted_repairs(repair);
   if (!wanted) return source;
-  source = mend(std::move(source), *wanted);
+  const std::string name = display_name(source.path);
+  try {
+    source = mend(std::move(source), *wanted);
+  } catch (const NoSuchComponent& error) {
+    throw UsageMistake("--component: " + name + ": " + error.what());
+  }
   tell_repairs(source, session.console);
   if (source.repairs.empty() || !read_sphere(source.file)) return source;
   source.file = without_map(std::move(source.file));
-  session.console.say("  " + display_name(source.path) +
-                      ": its map is of the mesh before the repair, and left out");
+  session.console.say("  " + name + ": its map is of the mesh before the repair, and left out");
   return source;
-} catch (const NoSuchComponent& error) {
-  throw UsageMistake(std::string("--component: ") + error.what());
 }
 
 }  // namespace
@@ -68,12 +70,19 @@ MappedMesh read_mapped(const std::string& path, const std::string& sphere, Sessi
                        const RepairArguments& repair, double lambda, const Words& data,
                        MissingValues missing) {
   session.hold_signals();
+  return map_source(read_mended(path, repair, session, data, missing), sphere, session, repair,
+                    lambda);
+}
+
+MappedMesh map_source(MeshSource source, const std::string& sphere, Session& session,
+                      const RepairArguments& repair, double lambda) {
+  session.hold_signals();
   LoadOptions options{.sphere = sphere, .read = input_limits()};
   options.map.energy.lambda = lambda;
   options.map.filler_share = wanted_filler_share(repair);
   options.map.threads = session.threads();
   options.map.progress = session.progress();
-  const MappedMesh mapped = mapped_mesh(read_mended(path, repair, session, data, missing), options);
+  const MappedMesh mapped = mapped_mesh(std::move(source), options);
   if (mapped.mapped_here())
     session.console.say(mapped.name() + ": carries no map; mapped now (progressive)");
   return mapped;

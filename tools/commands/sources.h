@@ -36,6 +36,9 @@ MeshSource read_mended_as_far(const std::string& path, const RepairArguments& re
 MappedMesh read_mapped(const std::string& path, const std::string& sphere, Session& session,
                        const RepairArguments& repair = {}, double lambda = 1,
                        const Words& data = {}, MissingValues missing = MissingValues::LeftOut);
+/// The same of a mesh that was read by `read_mended`, with these repairs.
+MappedMesh map_source(MeshSource source, const std::string& sphere, Session& session,
+                      const RepairArguments& repair = {}, double lambda = 1);
 
 /// Of images for geographers: how far the map's longitudes and latitudes are from those of the body
 /// that the mesh is, seen from the given centre, else that of a radial map or the origin; nothing

@@ -14,6 +14,7 @@
 #include "mesh/vertex_normals.h"
 #include "option_domain.h"
 #include "sphparam/correspondence/surface_map.h"
+#include "sphparam/group/surface_size.h"
 #include "sphparam/parallel.h"
 #include "sphparam/remesh/remesh.h"
 #include "sphparam/remesh/resample.h"
@@ -91,6 +92,15 @@ MappedMesh with_positions(const MappedMesh& mesh, const Points& positions,
                     1);
 }
 
+/// What vertices have, for `RemeshOptions::transfer`; but normals, which are not turned along.
+std::vector<std::string> values_of(const MeshFile& file) {
+  std::vector<std::string> names;
+  for (const Property& property : file.vertex_properties)
+    if (const std::string& name = property.name; name != "nx" && name != "ny" && name != "nz")
+      names.push_back(name);
+  return names;
+}
+
 /// How far a shape's own vertices are from the resampled one.
 void measure_resampling(GroupMember& member) {
   const TriangleMesh& mesh = member.mapped.mesh();
@@ -128,7 +138,7 @@ class GroupWork {
       bring_all(mean, GroupStart::Maps, "mean");
     }
     return finished(
-        resampled(options_.grid ? make_grid(*options_.grid) : grid_of(brought_reference())));
+        resampled(options_.grid ? make_grid(*options_.grid) : grid_of(brought_reference()), true));
   }
 
  private:
@@ -170,15 +180,19 @@ class GroupWork {
     return brought_[own_reference_ ? at(*own_reference_) : shapes_.size()]->mapped;
   }
 
-  /// All on a grid.
-  std::vector<Points> resampled(const SphereGrid& grid) {
-    const auto on_grid = [&](const MappedMesh& mapped) {
-      return remesh(mapped, grid, {.transfer = {}, .threads = 1});
+  /// All on a grid; `with_values`: with what the vertices of the shapes have.
+  std::vector<Points> resampled(const SphereGrid& grid, bool with_values = false) {
+    const auto on_grid = [&](const MappedMesh& mapped, std::vector<std::string> values) {
+      return remesh(mapped, grid, {.transfer = std::move(values), .threads = 1});
     };
     SideBySide work(std::ssize(shapes_), options_.threads, options_.progress);
     members_.resize(shapes_.size());
-    work.run("resample", [&](size_t i) { members_[i] = on_grid(brought_[i]->mapped); });
-    resampled_reference_ = on_grid(brought_reference());
+    work.run("resample", [&](size_t i) {
+      const MappedMesh& mapped = brought_[i]->mapped;
+      members_[i] =
+          on_grid(mapped, with_values ? values_of(mapped.file()) : std::vector<std::string>{});
+    });
+    resampled_reference_ = on_grid(brought_reference(), {});
     std::vector<Points> positions;
     for (const auto& member : members_) positions.push_back(member->mesh().positions);
     return positions;
@@ -194,18 +208,29 @@ class GroupWork {
     return sum / sum.sum();
   }
 
+  /// Each shape's own, whatever the others' shares of the area are.
+  VectorX sizes() const {
+    VectorX result(std::ssize(members_));
+    for (size_t i = 0; i < members_.size(); ++i)
+      result[static_cast<Eigen::Index>(i)] = surface_size(members_[i]->surface());
+    return result;
+  }
+
   Procrustes aligned(const std::vector<Points>& positions) const {
-    return align_by_procrustes(positions, resampled_reference_->mesh().positions, weights(),
-                               {.scale = options_.scale, .threads = options_.threads});
+    return align_by_procrustes(
+        positions, resampled_reference_->mesh().positions, weights(),
+        {.scale = options_.scale, .sizes = sizes(), .threads = options_.threads});
   }
 
   std::vector<GroupMember> members(Procrustes& procrustes) {
     std::vector<GroupMember> result;
+    const VectorX size = sizes();
     for (size_t i = 0; i < shapes_.size(); ++i) {
       Brought& brought = *brought_[i];
       result.push_back({.mapped = std::move(brought.mapped),
                         .resampled = *std::move(members_[i]),
                         .aligned = std::move(procrustes.shapes[i]),
+                        .size = size[static_cast<Eigen::Index>(i)],
                         .motion = procrustes.motions[i],
                         .start = std::move(brought.start),
                         .energy = brought.energy,
@@ -292,7 +317,7 @@ MappedMesh group_shape(const Group& group, int mode, double deviations) {
 
 MappedMesh aligned_shape(const Group& group, size_t member) {
   const GroupMember& shape = group.members.at(member);
-  return with_positions(group.mean, shape.aligned, shape.mapped.name());
+  return with_positions(shape.resampled, shape.aligned, shape.mapped.name());
 }
 
 std::vector<SurfacePoint> carried_to(const Group& group, size_t member,

@@ -52,18 +52,30 @@ Points mean_of(const std::vector<Points>& shapes) {
   return sum / static_cast<double>(shapes.size());
 }
 
+void require_domain(const ProcrustesOptions& options, size_t shapes) {
+  require_at_least("most_iterations", options.most_iterations, 1);
+  require_at_least("tolerance", options.tolerance, 0);
+  const VectorX& sizes = options.sizes;
+  if (sizes.size() > 0 && static_cast<size_t>(sizes.size()) != shapes)
+    throw std::invalid_argument("sizes: there are not as many as shapes");
+  for (const double size : sizes) require_at_least("sizes", size, 0);
+}
+
 /// Centres and sizes, once and for all.
 std::vector<ProcrustesMotion> placed(const std::vector<Points>& shapes, const VectorX& weights,
-                                     bool scale) {
+                                     const ProcrustesOptions& options) {
   std::vector<ProcrustesMotion> motions(shapes.size());
-  double mean_size = 0;
-  for (size_t i = 0; i < shapes.size(); ++i) {
-    motions[i].centre = centre_of(shapes[i], weights);
-    motions[i].scale = size_of(centred(shapes[i], motions[i].centre), weights);
-    mean_size += motions[i].scale / static_cast<double>(shapes.size());
+  for (size_t i = 0; i < shapes.size(); ++i) motions[i].centre = centre_of(shapes[i], weights);
+  if (!options.scale) return motions;
+  VectorX sizes = options.sizes;
+  if (sizes.size() == 0) {
+    sizes.resize(std::ssize(shapes));
+    for (size_t i = 0; i < shapes.size(); ++i)
+      sizes[static_cast<Eigen::Index>(i)] = size_of(centred(shapes[i], motions[i].centre), weights);
   }
-  for (ProcrustesMotion& motion : motions)
-    motion.scale = scale && motion.scale > 0 ? mean_size / motion.scale : 1;
+  for (size_t i = 0; i < shapes.size(); ++i)
+    if (const double size = sizes[static_cast<Eigen::Index>(i)]; size > 0)
+      motions[i].scale = sizes.mean() / size;
   return motions;
 }
 
@@ -81,10 +93,9 @@ Procrustes align_by_procrustes(const std::vector<Points>& shapes, const Points& 
                                const VectorX& weights, const ProcrustesOptions& options) {
   require_alike(shapes, weights);
   require_alike({reference}, weights);
-  require_at_least("most_iterations", options.most_iterations, 1);
-  require_at_least("tolerance", options.tolerance, 0);
+  require_domain(options, shapes.size());
   Procrustes result;
-  result.motions = placed(shapes, weights, options.scale);
+  result.motions = placed(shapes, weights, options);
   const Vector3 place = centre_of(reference, weights);
   const Points wanted = centred(reference, place);
   result.mean = wanted;

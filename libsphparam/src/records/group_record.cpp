@@ -10,9 +10,13 @@
 #include "records/json_parts.h"
 #include "records/nearest_vertex.h"
 #include "sphparam/correspondence/surface_map.h"
+#include "sphparam/group/surface_size.h"
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/io/paths.h"
+#include "sphparam/io/repair_advice.h"
+#include "sphparam/names.h"
 #include "sphparam/version.h"
+#include "sphparam/words.h"
 
 namespace sphparam {
 namespace {
@@ -36,10 +40,39 @@ std::vector<std::string> mode_names(const Group& group, const std::string& word)
   return names;
 }
 
-double size_of(const GroupMember& member, const VectorX& weights) {
-  const Points& points = member.resampled.mesh().positions;
-  const Vector3 centre = points.transpose() * weights;
-  return rms(points.rowwise() - centre.transpose(), weights);
+MendedShape mended_of(const GroupRecord& record, size_t i) {
+  return i < record.mended.size() ? record.mended[i] : MendedShape{};
+}
+
+/// "hole-filled 1; handle-cut 2"
+std::string repairs_text(const MendedShape& mended) {
+  std::vector<std::string> told;
+  for (const RepairAction& repair : mended.repairs)
+    told.push_back(name_of(repair.kind) + " " + std::to_string(repair.count));
+  return joined(told, "; ");
+}
+
+std::string mended_line(const std::string& name, const MendedShape& mended) {
+  std::vector<std::string> told;
+  for (const RepairAction& repair : mended.repairs) told.push_back(repair.message);
+  for (const std::string& line : {kept_line(mended.parts), mended.added})
+    if (!line.empty()) told.push_back(line);
+  return name + ": " + joined(told, "; ");
+}
+
+/// Under the keys of the record of `map`.
+void add_mended(Json& json, const MendedShape& mended) {
+  json["repairs"] = repairs_json(mended.repairs);
+  json["handles"] = handles_json(mended.handles);
+  json["added"] = mended.added_share;
+  json["components"] = parts_json(mended.parts);
+}
+
+Json reference_mended_json(const GroupRecord& record) {
+  if (!record.reference_mended) return nullptr;
+  Json json = Json::object();
+  add_mended(json, *record.reference_mended);
+  return json;
 }
 
 Json member_json(const GroupRecord& record, size_t i) {
@@ -47,23 +80,25 @@ Json member_json(const GroupRecord& record, size_t i) {
   Json scores = Json::array();
   for (Eigen::Index k = 0; k < record.group.modes.scores.cols(); ++k)
     scores.push_back(record.group.modes.scores(static_cast<Eigen::Index>(i), k));
-  return {{"name", record.names[i]},
-          {"file", record.files[i]},
-          {"vertices", member.mapped.mesh().vertex_count()},
-          {"triangles", member.mapped.mesh().face_count()},
-          {"mapped_now", record.mapped_now[i]},
-          {"start", member.start},
-          {"confidence", member.confidence},
-          {"energy", member.energy > 0 ? Json(member.energy) : Json(nullptr)},
-          {"certificate", certificate_json(member.mapped.certificate())},
-          {"resampled_certificate", certificate_json(member.resampled.certificate())},
-          {"resampling_rms", member.resampling_rms},
-          {"resampling_max", member.resampling_max},
-          {"size", size_of(member, record.group.weights)},
-          {"scale", member.motion.scale},
-          {"distance_from_mean", distance_from_mean(record.group, i)},
-          {"scores", scores},
-          {"warnings", member.warnings}};
+  Json json = {{"name", record.names[i]},
+               {"file", record.files[i]},
+               {"vertices", member.mapped.mesh().vertex_count()},
+               {"triangles", member.mapped.mesh().face_count()},
+               {"mapped_now", record.mapped_now[i]},
+               {"start", member.start},
+               {"confidence", member.confidence},
+               {"energy", member.energy > 0 ? Json(member.energy) : Json(nullptr)},
+               {"certificate", certificate_json(member.mapped.certificate())},
+               {"resampled_certificate", certificate_json(member.resampled.certificate())},
+               {"resampling_rms", member.resampling_rms},
+               {"resampling_max", member.resampling_max},
+               {"size", member.size},
+               {"scale", member.motion.scale},
+               {"distance_from_mean", distance_from_mean(record.group, i)},
+               {"scores", scores},
+               {"warnings", member.warnings}};
+  add_mended(json, mended_of(record, i));
+  return json;
 }
 
 Json modes_json(const ShapeModes& modes) {
@@ -90,6 +125,10 @@ std::vector<size_t> outliers(const Group& group) {
 
 }  // namespace
 
+MendedShape what_was_mended(const MeshSource& source) {
+  return {source.repairs, source.parts, source.handles, source.added_share, added_line(source)};
+}
+
 std::vector<std::string> names_of_shapes(const std::vector<std::string>& files) {
   std::set<std::string> taken;
   std::vector<std::string> names;
@@ -110,11 +149,13 @@ double distance_from_mean(const Group& group, size_t member) {
   return rms(group.members[member].aligned - group.mean.mesh().positions, group.weights);
 }
 
-double size_of_mean(const Group& group) {
-  const Points& points = group.mean.mesh().positions;
-  const Vector3 centre = points.transpose() * group.weights;
-  return rms(points.rowwise() - centre.transpose(), group.weights);
+double mean_size(const Group& group) {
+  double sum = 0;
+  for (const GroupMember& member : group.members) sum += member.size;
+  return sum / static_cast<double>(group.members.size());
 }
+
+double size_of_mean(const Group& group) { return surface_size(group.mean.surface()); }
 
 std::string to_json(const GroupRecord& record) {
   const Group& group = record.group;
@@ -126,6 +167,7 @@ std::string to_json(const GroupRecord& record) {
   const Json json = {{"sphparam", version},
                      {"command", "group"},
                      {"template", record.reference},
+                     {"template_mended", reference_mended_json(record)},
                      {"start", name_of(record.options.start)},
                      {"alike", record.options.alike},
                      {"hold", record.options.hold},
@@ -133,7 +175,8 @@ std::string to_json(const GroupRecord& record) {
                      {"grid", grid_name(record.options)},
                      {"scale", record.options.scale},
                      {"one_to_one", true},
-                     {"mean_size", size_of_mean(group)},
+                     {"mean_size", mean_size(group)},
+                     {"size_of_mean", size_of_mean(group)},
                      {"variance", group.modes.variance},
                      {"modes", modes_json(group.modes)},
                      {"procrustes_iterations", group.iterations},
@@ -148,14 +191,16 @@ std::string to_json(const GroupRecord& record) {
 std::string shapes_table(const GroupRecord& record) {
   std::vector<std::string> header{"shape", "start", "energy", "size", "distance_from_mean"};
   for (std::string& name : mode_names(record.group, "mode")) header.push_back(std::move(name));
+  header.push_back("repairs");
   std::string text = row(header);
   for (size_t i = 0; i < record.names.size(); ++i) {
     const GroupMember& member = record.group.members[i];
     std::vector<std::string> cells{record.names[i], member.start, shortest(member.energy),
-                                   shortest(size_of(member, record.group.weights)),
+                                   shortest(member.size),
                                    shortest(distance_from_mean(record.group, i))};
     for (Eigen::Index k = 0; k < record.group.modes.scores.cols(); ++k)
       cells.push_back(shortest(record.group.modes.scores(static_cast<Eigen::Index>(i), k)));
+    cells.push_back(repairs_text(mended_of(record, i)));
     text += row(cells);
   }
   return text;
@@ -237,6 +282,17 @@ std::vector<std::string> mode_lines(const GroupRecord& record) {
     lines.push_back("mode " + std::to_string(k + 1) + ": standard deviation " +
                     short_number(modes.deviations[k]) + ", " + percent(modes.shares[k]) +
                     " of the variance");
+  return lines;
+}
+
+std::vector<std::string> mended_lines(const GroupRecord& record) {
+  std::vector<std::string> lines;
+  const auto add = [&](const std::string& name, const MendedShape& mended) {
+    if (!mended.repairs.empty()) lines.push_back(mended_line(name, mended));
+  };
+  for (size_t i = 0; i < record.names.size(); ++i) add(record.names[i], mended_of(record, i));
+  if (record.reference_mended)
+    add("template " + display_name(record.reference), *record.reference_mended);
   return lines;
 }
 

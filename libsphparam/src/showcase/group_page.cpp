@@ -31,6 +31,7 @@ constexpr char style[] =
 void colour_by_place(const Points& mean, MeshFile& file) {
   constexpr double darkest = 40, brightest = 250;
   int axis = 0;
+  remove_properties(file.vertex_properties, {"alpha"});  // of other colours
   for (const char* name : {"red", "green", "blue"}) {
     const double least = mean.col(axis).minCoeff(), length = mean.col(axis).maxCoeff() - least;
     Property colour{name, ScalarType::Uint8, {}};
@@ -107,6 +108,10 @@ class GroupPage {
       page_.paragraph("To be looked at:");
       page_.list(warnings);
     }
+    if (const std::vector<std::string> mended = mended_lines(record_); !mended.empty()) {
+      page_.paragraph("Mended before they were mapped:");
+      page_.list(mended);
+    }
   }
 
   void add_mean() {
@@ -177,7 +182,7 @@ class GroupPage {
       const GroupMember& member = group_.members[i];
       shapes.rows.push_back(
           {record_.names[i], member.start, member.energy > 0 ? short_number(member.energy, 4) : "–",
-           short_number(size_of_member(member)), short_number(distance_from_mean(group_, i)),
+           short_number(member.size), short_number(distance_from_mean(group_, i)),
            short_number(member.resampling_rms), short_number(member.resampling_max)});
       for (Eigen::Index k = 0; k < modes; ++k)
         shapes.rows.back().push_back(
@@ -188,13 +193,6 @@ class GroupPage {
       page_.table(distances());
     else
       page_.paragraph("Distances of each two are in distances.tsv.");
-  }
-
-  double size_of_member(const GroupMember& member) const {
-    const Points& points = member.resampled.mesh().positions;
-    const Vector3 centre = points.transpose() * group_.weights;
-    const Points about = points.rowwise() - centre.transpose();
-    return std::sqrt(about.rowwise().squaredNorm().dot(group_.weights));
   }
 
   PageTable distances() const {

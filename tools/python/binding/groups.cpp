@@ -35,6 +35,7 @@ GroupOptions options_of(const py::dict& values) {
 py::dict member_of(const GroupMember& member) {
   py::dict dict;
   dict["map"] = Mapped(member.mapped);
+  dict["size"] = member.size;
   dict["start"] = member.start;
   dict["energy"] = member.energy;
   dict["confidence"] = member.confidence;

@@ -25,7 +25,7 @@ class Group:
         self.mean: SphereMap = SphereMap._of(found["mean"])
         """On the grid, as the template lies."""
         self.aligned: Floats = found["aligned"]
-        """(n, V, 3) the shapes on the grid, moved and turned onto the mean."""
+        """(n, V, 3) the shapes on the grid, moved and turned onto the mean; with ``scale`` all of one size."""
         self.weights: Floats = found["weights"]
         """(V,) mean shares of the area, whose sum is 1."""
         self.deviation: Floats = found["deviation"]
@@ -44,6 +44,9 @@ class Group:
         """(n, k) of each shape, in standard deviations: shape = mean + scores · modes."""
         self.variance: float = found["variance"]
         """Of all modes, also those that are not kept."""
+        self.sizes: List[float] = [shape["size"] for shape in found["shapes"]]
+        """Of each shape on the grid, as it was: RMS distance of its surface from its centroid, both by area,
+        whoever else is in the group."""
         self.starts: List[str] = [shape["start"] for shape in found["shapes"]]
         """What each way to the template began with."""
         self.energies: List[float] = [shape["energy"] for shape in found["shapes"]]
@@ -94,7 +97,7 @@ def group(
     grid
         Of triangles, or ``"template"``: its own.
     scale
-        Bring all to one size.
+        Bring all to one size: the mean of ``sizes``.
     modes
         At most so many are kept.
 

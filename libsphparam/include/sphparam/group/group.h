@@ -32,7 +32,7 @@ struct GroupOptions {
   int rounds = 1;     // ≥ 0: how often all are then brought to their mean
   /// Of the mean, of triangles; nothing: the template's own vertices and triangles.
   std::optional<GridSpec> grid = GridSpec{.kind = GridKind::Icosahedron, .size = 5};
-  bool scale = false;  // shapes are brought to one size
+  bool scale = false;  // shapes are brought to one size: the mean of theirs (`GroupMember::size`)
   int modes = 3;       // ≥ 0: at most so many are kept
   DistortionEnergy energy = {.kind = EnergyKind::SymmetricDirichlet};  // as in MatchOptions
   int threads = 0;  // 0: all cores. The result does not depend on it.
@@ -42,8 +42,9 @@ struct GroupOptions {
 /// One shape of a group.
 struct GroupMember {
   MappedMesh mapped;        // with its map moved into correspondence
-  MappedMesh resampled;     // on the grid, where it was
+  MappedMesh resampled;     // on the grid, where it was; with what its vertices have but normals
   Points aligned;           // the resampled one's vertices, on the mean
+  double size = 0;          // of the resampled one, whoever else is in the group: `surface_size`
   ProcrustesMotion motion;  // that brought them there
   std::string start;        // what its way began with: "rotation", "ellipsoid", "ends", "its map"
   double energy = 0;        // of the last minimisation, a unit of area (`Match::energy`); 0: none
@@ -84,7 +85,8 @@ Group make_group(const std::vector<MappedMesh>& shapes, const MappedMesh& refere
 /// Throws: std::out_of_range for a mode that there is not.
 MappedMesh group_shape(const Group& group, int mode, double deviations);
 
-/// A member's shape on the mean, on the grid. Throws: std::out_of_range for no member.
+/// A member's shape on the mean, on the grid, with what `resampled` has. Throws: std::out_of_range
+/// for no member.
 MappedMesh aligned_shape(const Group& group, size_t member);
 
 /// Where vertices of the template are on a member.

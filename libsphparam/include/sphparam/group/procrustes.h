@@ -17,7 +17,10 @@ struct ProcrustesMotion {
 Points moved(const Points& points, const ProcrustesMotion& motion);
 
 struct ProcrustesOptions {
-  bool scale = false;         // each to the mean size: RMS distance from its centre
+  bool scale = false;  // each to the mean of the sizes
+  /// Of the shapes, each ≥ 0; of size 0 a shape is not scaled. Empty: RMS distances from their
+  /// centres, so weighted.
+  VectorX sizes = {};
   int most_iterations = 200;  // ≥ 1
   double tolerance = 1e-13;   // ≥ 0: RMS change of the mean in an iteration, of its size
   int threads = 0;

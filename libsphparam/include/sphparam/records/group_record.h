@@ -1,13 +1,25 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "sphparam/group/group.h"
 #include "sphparam/group/template_landmarks.h"
+#include "sphparam/io/mesh_source.h"
 
 namespace sphparam {
+
+/// What repairs did to a shape before it was mapped; `MeshSource` says what is what.
+struct MendedShape {
+  std::vector<RepairAction> repairs = {};  // none: it stayed as it was
+  KeptParts parts = {};
+  std::vector<HandleLoop> handles = {};
+  double added_share = 0;
+  std::string added = {};  // `added_line`
+};
+MendedShape what_was_mended(const MeshSource& source);
 
 /// A group as it is told. References are to values that outlive the record.
 struct GroupRecord {
@@ -18,7 +30,9 @@ struct GroupRecord {
   std::vector<bool> mapped_now;    // of the shapes: no file had its map
   std::string reference;           // the template's file
   std::vector<TemplateLandmark> landmarks = {};
-  std::vector<std::string> outputs = {};  // names in the folder
+  std::vector<MendedShape> mended = {};              // of the shapes; empty: none was
+  std::optional<MendedShape> reference_mended = {};  // of a template that is none of the shapes
+  std::vector<std::string> outputs = {};             // names in the folder
   double seconds = 0;
 };
 
@@ -31,7 +45,8 @@ std::string to_json(const GroupRecord& record);
 
 // Tables, with tabs between; numbers come back exactly.
 
-/// A row a shape: how it was brought, its size, its distance from the mean, scores of the modes.
+/// A row a shape: how it was brought, its size, its distance from the mean, scores of the modes,
+/// and what was mended of it, by kind and count, as a batch tells it.
 std::string shapes_table(const GroupRecord& record);
 /// Distances of each two shapes.
 std::string distances_table(const GroupRecord& record);
@@ -48,12 +63,17 @@ std::string grid_name(const GroupOptions& options);
 
 /// RMS distance of a member's aligned shape from the mean, weighted; the mesh's unit.
 double distance_from_mean(const Group& group, size_t member);
-/// RMS distance of the mean from its centre: what distances are held against.
+/// Of the shapes' sizes, to which `GroupOptions::scale` brings them.
+double mean_size(const Group& group);
+/// `surface_size` of the mean, which is less where shapes differ: what distances are held against.
 double size_of_mean(const Group& group);
 
 /// For people.
 std::string to_text(const GroupRecord& record);
 std::vector<std::string> mode_lines(const GroupRecord& record);
+/// What was done to meshes before they were mapped, a line a mesh with its name: each repair, what
+/// choosing a component kept, what was put in.
+std::vector<std::string> mended_lines(const GroupRecord& record);
 /// What is to be looked at, each with the shape's name: what was told of each, and shapes whose
 /// energy is far above the others'.
 std::vector<std::string> group_warnings(const GroupRecord& record);
