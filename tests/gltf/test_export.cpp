@@ -5,6 +5,7 @@
 
 #include "../chart/maps.h"
 #include "image/image_codec.h"
+#include "io/attributes/corner_colours.h"
 #include "sphparam/bake/bake.h"
 #include "sphparam/bake/bake_errors.h"
 #include "sphparam/errors.h"
@@ -63,6 +64,24 @@ TEST_CASE("export: a mesh made of another shows that one's colours where it carr
   REQUIRE(look.images.size() == own.images.size());
   CHECK(look.images[0].bytes == own.images[0].bytes);
   CHECK(look.materials[0].name == "checker");
+}
+
+TEST_CASE("export: colours of vertices that have several are baked, others written as they are") {
+  MeshFile file = mapped_egg(2).file();
+  for (const char* name : {"red", "green", "blue"})
+    file.set_vertex_property(
+        {name, ScalarType::Uint8,
+         std::vector<double>(static_cast<size_t>(file.mesh.vertex_count()), 255)});
+  const auto look_of = [&] {
+    return make_look(MappedMesh({.file = file, .map = mapped_egg(2).map()}), small);
+  };
+  CHECK(look_of().vertex_colours);
+  set_corner_colours(file, CornerColours::Constant(file.mesh.triangles.size(), 4, 128));
+  const Look baked = look_of();
+  CHECK_FALSE(baked.vertex_colours);
+  const std::string& png = baked.images.at(0).bytes;
+  CHECK(decode_image({png.begin(), png.end()}, "baked").pixel(3, 9)[1] ==
+        Approx(128 / 255.0).margin(0.01));
 }
 
 TEST_CASE("export: where the mesh's own colour is baked, what else its materials say is told") {

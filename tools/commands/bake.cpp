@@ -12,9 +12,11 @@
 #include "commands/sources.h"
 #include "commands/surfaces.h"
 #include "console/places.h"
+#include "io/shell_word.h"
 #include "number_text.h"
 #include "reports/told_losses.h"
 #include "sphparam/io/paths.h"
+#include "sphparam/io/sphere_file.h"
 #include "sphparam/records/bake_record.h"
 
 namespace sphparam::cli {
@@ -54,11 +56,11 @@ class PacedProgress {
 };
 
 MappedMesh read_target(const MappedMesh& source, const BakeArguments& arguments, Session& session) {
-  MappedMesh target = read_mapped(arguments.target, "", session);
-  if (!target.mapped_here()) return target;
-  throw NotCertifiedError(display_name(arguments.target) +
-                          ": carries no map, so it is on no sphere that it could share; " +
-                          advice_for_target(source, arguments));
+  MeshSource target = read_mended(arguments.target, {}, session);
+  if (read_sphere(target.file)) return map_source(std::move(target), "", session);
+  throw UsageMistake("--for: " + display_name(arguments.target) +
+                     ": carries no map, so it is on no sphere that it could share; " +
+                     advice_for_target(source, arguments));
 }
 
 /// A surface as it is, with all that its materials say.
@@ -103,6 +105,13 @@ BakeReport bake_for_user(const MappedMesh& source, const std::vector<BakeRequest
     throw as_mistake(error, source, arguments);
   } catch (const HalfRangeError& error) {
     throw ImageError(std::string(error.what()) + ": --depth float has");
+  } catch (const ImageError& error) {
+    const std::string why = error.what();
+    if (!why.starts_with("material ")) throw;
+    const std::string& file = arguments.from.empty() ? arguments.input : arguments.from;
+    throw ImageError(why + "; --texture IMAGE names another for basecolor, `sphparam asset " +
+                     (is_stream(file) ? "FILE" : shell_file(file)) +
+                     "` leaves out images that cannot be read");
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "io/attributes/corner_colours.h"
 #include "io/inspected_source.h"
 #include "number_text.h"
 #include "records/json_parts.h"
@@ -25,7 +26,8 @@ std::string attributes(const MeshFile& file) {
   std::vector<std::string> words;
   for (const Property& property : file.vertex_properties) words.push_back(property.name);
   for (const Property& property : file.face_properties)
-    words.push_back(property.name + " per face");
+    if (!is_corner_colour(property.name)) words.push_back(property.name + " per face");
+  if (corner_colours(file)) words.push_back("colours per corner");
   if (file.corner_texcoords) words.push_back("texture coordinates per corner");
   if (file.corner_normals) words.push_back("normals per corner");
   if (file.second_texcoords) words.push_back("second texture coordinates");
