@@ -336,6 +336,38 @@ TEST_CASE("batch: killed or stopped, nothing is lost, half or done twice") {
   CHECK(fs::is_empty(shapes.work + "/staging"));
 }
 
+TEST_CASE("batch: failures that differ in numbers are told together, with no figure of one alone") {
+  const Shapes shapes(1);
+  const auto balls = [&](const std::string& name, int count) {
+    std::string text, faces;
+    const TriangleMesh ball = icosphere(0);
+    for (int i = 0; i < count; ++i) {
+      TriangleMesh moved = ball;
+      moved.positions.col(0).array() += 3 * i;
+      std::istringstream lines(obj_text(moved));
+      for (std::string line; std::getline(lines, line);)
+        if (line.starts_with("v ")) text += line + "\n";
+      for (Face f = 0; f < ball.face_count(); ++f)
+        faces += "f " + std::to_string(ball.triangles(f, 0) + 1 + 12 * i) + " " +
+                 std::to_string(ball.triangles(f, 1) + 1 + 12 * i) + " " +
+                 std::to_string(ball.triangles(f, 2) + 1 + 12 * i) + "\n";
+    }
+    write_bytes(shapes.folder / ("in/" + name + ".obj"), text + faces);
+  };
+  balls("pair", 2);
+  balls("soup", 5);
+  shapes.plan();
+  shapes.batch("run");
+  CHECK_THAT(shapes.batch("status").out,
+             Contains("2 × code 4: this is not a closed genus-0 mesh: 2 to 5 separate components; "
+                      "the largest has 20 faces and 20 to "
+                      "50 %") &&
+                 Contains("pair, soup"));
+  const Json failures = shapes.status()["failures"];
+  REQUIRE(failures.size() == 1);
+  CHECK_THAT(failures[0]["reason"].get<std::string>(), Contains("2 to 5 separate components"));
+}
+
 TEST_CASE("batch: the page has every shape, failures by reason and pictures beside it") {
   const Shapes shapes(2);
   shapes.add_bad();

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "program.h"
+#include "support/joined.h"
 #include "support/test_meshes.h"
 
 namespace sphparam::tests {
@@ -87,6 +88,25 @@ TEST_CASE("measure: the distance of every vertex, as a property and as colours")
   }
 }
 
+TEST_CASE("measure: a glTF file that export has turned is told of, one that it has not is not") {
+  const Folder folder;
+  TriangleMesh limb = icosphere(2);
+  limb.positions.col(2) *= 3;
+  write_bytes(folder / "limb.obj", obj_text(limb));
+  const auto said = [&](const std::vector<std::string>& up) {
+    std::vector<std::string> arguments = {"export", folder / "limb.obj", "-o", folder / "limb.glb"};
+    arguments.insert(arguments.end(), up.begin(), up.end());
+    REQUIRE(sphparam_program(arguments).code == 0);
+    const Ended ended = sphparam_program(
+        {"measure", folder / "limb.glb", folder / "limb.obj", "--samples", "2000"});
+    CHECK(ended.code == 0);
+    return ended.err;
+  };
+  CHECK_THAT(said({}), Contains("y points up in limb.glb, which is glTF") &&
+                           Contains("`sphparam export limb.obj --up y -o limb.glb`"));
+  CHECK_THAT(said({"--up", "y"}), !Contains("glTF"));
+}
+
 TEST_CASE("measure: meshes that are no spheres are measured too, empty ones are not") {
   const Folder folder;
   const std::string one = folder / "one.obj", two = folder / "two.obj",
@@ -108,6 +128,31 @@ TEST_CASE("measure: meshes that are no spheres are measured too, empty ones are 
   const Ended flat = sphparam_program({"measure", one, empty});
   CHECK(flat.code == 4);
   CHECK_THAT(flat.err, Contains("empty.obj") && Contains("no area"));
+}
+
+TEST_CASE(
+    "measure: what repair leaves of a mesh is told with its name, and so is a wrong component") {
+  const Folder folder;
+  const std::string pair = folder / "pair.obj", ball = folder / "ball.obj";
+  TriangleMesh smaller = icosphere(1);
+  smaller.positions *= 0.9;
+  write_bytes(pair, obj_text(joined(icosphere(1), smaller, {3, 0, 0})));
+  write_bytes(ball, obj_text(icosphere(1)));
+  const auto measure = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"measure", pair, ball, "--samples", "2000"});
+    return sphparam_program(more);
+  };
+  const Ended left = measure({"--repair"});
+  INFO(left.err);
+  CHECK(left.code == 0);
+  CHECK_THAT(left.err,
+             Contains("pair.obj: not mended, and taken as it is: 2 separate components") &&
+                 !Contains("ball.obj: not mended"));
+  CHECK_THAT(measure({}).err, !Contains("not mended"));
+  CHECK_THAT(measure({"--component", "1"}).err, !Contains("not mended"));
+  const Ended none = measure({"--component", "2"});
+  CHECK(none.code == 2);
+  CHECK_THAT(none.err, Contains("--component: ball.obj: there is no component 2: the mesh has 1"));
 }
 
 TEST_CASE("measure: command lines that make no sense end with 2 and write nothing") {

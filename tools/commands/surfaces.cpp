@@ -1,6 +1,8 @@
 #include "commands/surfaces.h"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "commands/sources.h"
 #include "number_text.h"
@@ -22,6 +24,16 @@ MeshFile told_surface(MeshFile file, const std::string& path, Session& session) 
   return without_fillers(file);
 }
 
+/// What repairs left of a mesh that no map takes: here it is a surface all the same.
+void tell_left(const MeshSource& source, Session& session) {
+  std::vector<std::string> left;
+  for (const MeshDefect& defect : source.inspection.defects)
+    if (defect.fatal) left.push_back(defect.message);
+  if (!left.empty())
+    session.console.say("  " + display_name(source.path) +
+                        ": not mended, and taken as it is: " + joined(left, "; "));
+}
+
 }  // namespace
 
 MeshFile read_surface(const std::string& path, Session& session, const ReadOptions& options) {
@@ -30,7 +42,9 @@ MeshFile read_surface(const std::string& path, Session& session, const ReadOptio
 
 MeshFile read_surface(const std::string& path, const RepairArguments& repair, Session& session) {
   if (!wanted_repairs(repair)) return read_surface(path, session);
-  return told_surface(read_mended_as_far(path, repair, session).file, path, session);
+  MeshSource source = read_mended_as_far(path, repair, session);
+  tell_left(source, session);
+  return told_surface(std::move(source.file), path, session);
 }
 
 }  // namespace sphparam::cli

@@ -13,7 +13,8 @@ namespace sphparam::cli {
 MeshFile read_surface(const std::string& path, Session& session,
                       const ReadOptions& options = input_limits());
 
-/// The same after the repairs that are wanted, as far as they go; as it is where none are.
+/// The same after the repairs that are wanted, as far as they go: what they leave that no map takes
+/// is told. As it is where none are wanted.
 MeshFile read_surface(const std::string& path, const RepairArguments& repair, Session& session);
 
 }  // namespace sphparam::cli

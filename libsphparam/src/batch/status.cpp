@@ -1,13 +1,13 @@
 #include "sphparam/batch/status.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <ctime>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "batch/alike_reasons.h"
 #include "batch/engines.h"
 #include "batch/publication.h"
 #include "batch/record.h"
@@ -38,34 +38,27 @@ Heads heads_of(const std::string& folder, const BatchPlan& plan, int threads) {
   return heads;
 }
 
-/// "ID: vertex # of #" of "sub-01: vertex 17 of 8": what is the same in all messages of a kind.
-std::string kind_of_reason(const std::string& reason, const BatchItem& item) {
-  std::string text = reason;
-  for (const std::string& name : {item.path, fs::path(item.path).filename().string(), item.id}) {
-    for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name))
-      text.replace(at, name.size(), "#");
-  }
-  std::string kind;
-  for (const char c : text) {
-    const bool digit = std::isdigit(static_cast<unsigned char>(c)) != 0;
-    if (!digit) kind += c;
-    if (digit && !kind.ends_with('#')) kind += '#';
-  }
-  return kind;
-}
-
 std::vector<BatchFailures> grouped(const BatchPlan& plan, const Heads& heads) {
-  std::map<std::pair<int, std::string>, BatchFailures> groups;
+  struct Group {
+    BatchFailures failures;
+    AlikeReasons reasons;
+  };
+  std::map<std::pair<int, std::string>, Group> groups;
   for (std::size_t i = 0; i < heads.size(); ++i) {
     if (!heads[i] || !heads[i]->failed()) continue;
     const BatchRecordHead& head = *heads[i];
-    BatchFailures& group = groups[{head.code, kind_of_reason(head.reason, plan.items[i])}];
-    if (group.count++ == 0) group.reason = without_folders(head.reason, plan.items[i]);
+    const ReasonWording wording = wording_of(head.reason, plan.items[i]);
+    auto& [group, reasons] = groups[{head.code, wording.kind}];
+    reasons.add(head.reason, plan.items[i], wording);
+    ++group.count;
     group.code = head.code;
     if (group.ids.size() < told_ids) group.ids.push_back(plan.items[i].id);
   }
   std::vector<BatchFailures> failures;
-  for (auto& [key, group] : groups) failures.push_back(std::move(group));
+  for (auto& [key, group] : groups) {
+    group.failures.reason = group.reasons.text();
+    failures.push_back(std::move(group.failures));
+  }
   std::ranges::stable_sort(failures, std::ranges::greater{}, &BatchFailures::count);
   return failures;
 }

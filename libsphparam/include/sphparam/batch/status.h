@@ -12,7 +12,9 @@ namespace sphparam {
 /// Failures that are alike: the same exit code and, but for names and numbers, the same message.
 struct BatchFailures {
   int code = 0;        // 128 + N: signal N
-  std::string reason;  // of the first of them in the plan's order
+  /// Of several that are not equal with NAME for a shape's name and numbers that differ from the
+  /// least to the greatest.
+  std::string reason;
   std::size_t count = 0;
   std::vector<std::string> ids;  // the first ten
 };
