@@ -276,7 +276,7 @@ TEST_CASE(
   CHECK(shared.edges == edges);
   CHECK_THAT(shared_places_line(whole),
              Catch::StartsWith(std::to_string(edges) + " vertices lie exactly on others") &&
-                 Catch::Contains(std::to_string(edges) + " edges have more than two faces then") &&
+                 Catch::Contains(std::to_string(edges) + " edges with more than two faces then") &&
                  Catch::Contains("`sphparam wrap 'a ring.ply' -o wrapped.ply`"));
   // So it is for a reader that welds.
   const MeshInspection welded = inspect_mesh(weld_exact(whole.file).file.mesh);
