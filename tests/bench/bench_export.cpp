@@ -16,8 +16,8 @@
 
 #include "chart/one_to_one.h"
 #include "gltf/export_asset.h"
+#include "gltf/images/variant_images.h"
 #include "gltf/stored_chart.h"
-#include "gltf/variant_images.h"
 #include "gltf/written_check.h"
 #include "io/attributes/shading_normals.h"
 #include "io/polygons/welding.h"

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "gltf/export_asset.h"
-#include "gltf/texture_format.h"
-#include "gltf/variant_images.h"
+#include "gltf/images/texture_format.h"
+#include "gltf/images/variant_images.h"
 #include "gltf/written_check.h"
 #include "image/image_codec.h"
 #include "io/attributes/hard_edges.h"

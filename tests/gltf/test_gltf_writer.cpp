@@ -2,8 +2,8 @@
 #include <nlohmann/json.hpp>
 
 #include "charted.h"
-#include "gltf/material_images.h"
-#include "gltf/variant_images.h"
+#include "gltf/images/material_images.h"
+#include "gltf/images/variant_images.h"
 #include "gltf/written_check.h"
 #include "io/uri.h"
 #include "sphparam/gltf/gltf_writer.h"

@@ -2,10 +2,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "gltf/image_kind.h"
-#include "gltf/jpeg_head.h"
-#include "gltf/material_images.h"
-#include "gltf/normal_image.h"
+#include "gltf/images/image_kind.h"
+#include "gltf/images/jpeg_head.h"
+#include "gltf/images/material_images.h"
+#include "gltf/images/normal_image.h"
 #include "image/image_codec.h"
 #include "io/files/base64.h"
 #include "sphparam/bake/bake.h"

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "charted.h"
-#include "gltf/texture_format.h"
-#include "gltf/variant_images.h"
+#include "gltf/images/texture_format.h"
+#include "gltf/images/variant_images.h"
 #include "image/image_codec.h"
 #include "image/webp.h"
 #include "sphparam/gltf/gltf_writer.h"

@@ -11,7 +11,7 @@
 #include "gltf/export_domain.h"
 #include "gltf/export_names.h"
 #include "gltf/fillers_left_out.h"
-#include "gltf/image_kind.h"
+#include "gltf/images/image_kind.h"
 #include "gltf/level.h"
 #include "gltf/stored_chart.h"
 #include "gltf/textured_mesh.h"

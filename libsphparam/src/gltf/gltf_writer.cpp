@@ -7,7 +7,7 @@
 #include <span>
 #include <stdexcept>
 
-#include "gltf/image_kind.h"
+#include "gltf/images/image_kind.h"
 #include "gltf/packing.h"
 #include "io/attributes/finish_terms.h"
 #include "io/uri.h"

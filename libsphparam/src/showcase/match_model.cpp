@@ -6,7 +6,7 @@
 #include "bake/bake_rows.h"
 #include "bake/fields/linear_field.h"
 #include "bake/make_scene.h"
-#include "gltf/variant_images.h"
+#include "gltf/images/variant_images.h"
 #include "render/heat.h"
 #include "showcase/match_pictures.h"
 #include "sphparam/gltf/morph.h"

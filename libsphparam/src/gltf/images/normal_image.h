@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "gltf/material_images.h"
+#include "gltf/images/material_images.h"
 #include "sphparam/gltf/export.h"
 
 namespace sphparam {

@@ -1,7 +1,7 @@
 // Segments are passed by their lengths, so that a thumbnail in one of them is not taken for the
 // image. In what follows the frame's head, FF D9 is nothing but the end: there FF is followed by 0.
 
-#include "gltf/jpeg_head.h"
+#include "gltf/images/jpeg_head.h"
 
 #include <cstddef>
 

@@ -1,6 +1,6 @@
 // What an image says of itself is what `bake` wrote into its metadata; strangers' say nothing.
 
-#include "gltf/normal_image.h"
+#include "gltf/images/normal_image.h"
 
 #include <algorithm>
 
