@@ -55,7 +55,7 @@ std::string repairs_text(const MendedShape& mended) {
 std::string mended_line(const std::string& name, const MendedShape& mended) {
   std::vector<std::string> told;
   for (const RepairAction& repair : mended.repairs) told.push_back(repair.message);
-  for (const std::string& line : {kept_line(mended.parts), mended.added})
+  for (const std::string& line : {kept_line(mended.parts, mended.repairs), mended.added})
     if (!line.empty()) told.push_back(line);
   return name + ": " + joined(told, "; ");
 }
