@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "program.h"
@@ -172,6 +173,54 @@ TEST_CASE("verify: a sphere is judged by its positions, whatever angles are note
   INFO(ended.err);
   CHECK(ended.code == 0);
   CHECK(Json::parse(ended.out)["rays"] == "vertex positions");
+}
+
+TEST_CASE(
+    "verify: theta and phi that are not those of sx sy sz end with 5, a header is warned of") {
+  const Folder folder;
+  const std::string map = folder / "ball.sph.ply", hurt = folder / "hurt.sph.ply";
+  REQUIRE(sphparam_program({"map", "-", "-o", map}, obj_text(icosphere(2))).code == 0);
+  const std::string bytes = bytes_of(map);
+  const Ended sound = sphparam_program({"verify", map, "--json", "-"});
+  CHECK(sound.code == 0);
+  CHECK(Json::parse(sound.out)["angles"]["off"] == 0);
+  CHECK(Json::parse(sound.out)["warnings"].empty());
+
+  // The first vertex: x, y, z, theta, phi are eight bytes each.
+  const std::size_t body = bytes.find("end_header\n") + 11;
+  std::string wrong = bytes;
+  const double theta = 1.25, phi = 0.75;
+  std::memcpy(&wrong[body + 24], &theta, 8);
+  std::memcpy(&wrong[body + 32], &phi, 8);
+  write_bytes(hurt, wrong);
+  for (const bool quiet : {false, true}) {
+    std::vector<std::string> arguments = {"verify", hurt, "--json", "-"};
+    if (quiet) arguments.push_back("-q");
+    const Ended ended = sphparam_program(arguments);
+    CHECK(ended.code == 5);
+    CHECK_THAT(ended.err, Contains("theta and phi of 1 vertex is not that of sx sy sz"));
+    CHECK(Json::parse(ended.out)["angles"]["off"] == 1);
+    CHECK(Json::parse(ended.out)["certificate"]["one_to_one"] == true);
+  }
+
+  std::string claims = bytes;
+  claims.replace(claims.find("verdict one-to-one"), 18, "verdict folded 999");
+  write_bytes(hurt, claims + "more");
+  const Ended ended = sphparam_program({"verify", hurt});
+  CHECK(ended.code == 0);
+  CHECK_THAT(ended.err, Contains("the header says: folded 999; it is one-to-one") &&
+                            Contains("data after the last element ignored"));
+}
+
+TEST_CASE("verify: the report names both files") {
+  const Folder folder;
+  write_bytes(folder / "a.obj", obj_text(icosphere(1)));
+  write_bytes(folder / "s.obj", obj_text(icosphere(1)));
+  const Ended ended =
+      sphparam_program({"verify", folder / "a.obj", folder / "s.obj", "--json", "-"});
+  const Json report = Json::parse(ended.out);
+  CHECK(report["input"]["file"] == folder / "a.obj");
+  CHECK(report["sphere"] == folder / "s.obj");
 }
 
 TEST_CASE("verify: files of different connectivity end with 3 and the place is named") {

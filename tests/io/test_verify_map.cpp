@@ -1,4 +1,7 @@
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
 
 #include "folder.h"
 #include "reading.h"
@@ -56,6 +59,86 @@ TEST_CASE("verify_map: a bare sphere of any radius is its own map") {
   CHECK(verified.place == RayPlace::Positions);
   CHECK(verified.mean_length == Approx(100));
   CHECK_FALSE(verified.distortion);
+}
+
+TEST_CASE("verify_map: no finite radius is too large or too small, one in the file or beside it") {
+  const Folder folder;
+  const std::string shape = write(folder, "egg.ply", egg());
+  const VerifiedMap usual = verify_map(shape, {.sphere = write(folder, "s.ply", sphere(1))});
+  for (const double radius : {0x1p600, 0x1p70, 0x1p-600, 1e20, 1e-161, 1e-170, 1e300}) {
+    INFO(radius);
+    const std::string path = write(folder, "sphere.ply", sphere(radius));
+    for (const VerifiedMap& map : {verify_map(path), verify_map(shape, {.sphere = path})}) {
+      CHECK(map.certificate.bijective());
+      CHECK(map.is_round());
+      CHECK(map.mean_length == Approx(radius).epsilon(1e-9));
+      if (radius > 1e15) CHECK(map.certificate.max_length_error == Approx(radius).epsilon(1e-9));
+    }
+    if (std::log2(radius) != std::round(std::log2(radius))) continue;
+    const VerifiedMap map = verify_map(shape, {.sphere = path});
+    CHECK(map.length_deviation == usual.length_deviation);
+    CHECK(map.distortion->symmetric_dirichlet == usual.distortion->symmetric_dirichlet);
+  }
+}
+
+TEST_CASE("verify_map: theta and phi beside the rays are held against them") {
+  const Folder folder;
+  const SphereMap map{icosphere(2).positions};
+  MeshFile file = attach_map(egg(), map, {});
+  const VerifiedMap right = verify_map(write(folder, "right.ply", file));
+  REQUIRE(right.angles);
+  CHECK(right.angles->off == 0);
+  CHECK(right.holds());
+  CHECK(right.warnings.empty());
+  Property theta = *file.find_vertex_property("theta");
+  theta.type = ScalarType::Float32;
+  for (double& value : theta.values) value = static_cast<double>(static_cast<float>(value));
+  theta.values[7] += 2 * std::numbers::pi;  // the same place
+  file.set_vertex_property(theta);
+  CHECK(verify_map(write(folder, "rounded.ply", file)).holds());
+  Property phi = *file.find_vertex_property("phi");
+  phi.values[5] += 0.25;
+  phi.values[9] += 1e-4;
+  file.set_vertex_property(phi);
+  const VerifiedMap wrong = verify_map(write(folder, "wrong.ply", file));
+  CHECK(wrong.certificate.bijective());
+  CHECK_FALSE(wrong.holds());
+  REQUIRE(wrong.angles);
+  CHECK(wrong.angles->off == 2);
+  CHECK(wrong.angles->farthest == Approx(0.25));
+  REQUIRE(wrong.warnings.size() == 1);
+  CHECK_THAT(wrong.warnings[0], Catch::Contains("theta and phi of 2 vertices are not those"));
+  CHECK_FALSE(verify_map(write(folder, "sphere.obj", sphere(1))).angles);
+}
+
+TEST_CASE(
+    "verify_map: what a header says of poles, meridian and verdict is held against the rays") {
+  const Folder folder;
+  SphereMap map{icosphere(2).positions};
+  map.points = (map.points * (Eigen::Quaterniond::FromTwoVectors(map.point(3), Vector3::UnitZ()))
+                                 .toRotationMatrix()
+                                 .transpose())
+                   .eval();
+  map.points.row(3) = Vector3::UnitZ().transpose();
+  Vertex south = 0;
+  map.points.col(2).minCoeff(&south);
+  const auto warnings_of = [&](const Provenance& said) {
+    return verify_map(write(folder, "said.ply", attach_map(egg(), map, said))).warnings;
+  };
+  const std::string poles = "3 " + std::to_string(south);
+  CHECK(warnings_of({{"poles", poles}, {"verdict", "one-to-one"}}).empty());
+  CHECK(warnings_of({{"poles", "none"}}).empty());
+  CHECK_THAT(warnings_of({{"verdict", "folded 3"}}).at(0),
+             Catch::Contains("says: folded 3; it is one-to-one"));
+  CHECK_THAT(warnings_of({{"poles", "9999992585 " + std::to_string(south)}}).at(0),
+             Catch::Contains("vertex 9999992585 is the north pole, and there is none"));
+  CHECK_THAT(warnings_of({{"poles", "4 " + std::to_string(south)}}).at(0),
+             Catch::Contains("radians from +z"));
+  CHECK(warnings_of({{"method", "paper"}, {"poles", "4 5"}}).empty());  // of its date line
+  Vertex east = 0;
+  map.points.col(1).maxCoeff(&east);
+  CHECK_THAT(warnings_of({{"meridian", std::to_string(east)}}).at(0),
+             Catch::Contains("from theta = 0"));
 }
 
 TEST_CASE("verify_map: a mesh and its sphere are two files of one connectivity") {

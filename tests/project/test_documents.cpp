@@ -203,6 +203,20 @@ TEST_CASE("documents: every program that measures has its place in docs/results.
   }
 }
 
+TEST_CASE("documents: every figure of distortion has its formula in docs/mathematics.md") {
+  const std::string page = text_of("docs/mathematics.md");
+  const std::string record = text_of("libsphparam/src/records/json_parts.cpp");
+  const std::vector<std::string> keys = all_in(record, "\\{\"([a-z_0-9]+)\", d\\.");
+  REQUIRE(keys.size() >= 17);
+  const size_t begin = page.find("## The figures of distortion");
+  REQUIRE(begin != std::string::npos);
+  const std::string section = page.substr(begin, page.find("\n## ", begin) - begin);
+  for (const std::string& key : keys) {
+    INFO(key);
+    CHECK(section.find("`" + key + "`") != std::string::npos);
+  }
+}
+
 TEST_CASE("documents: README.md is read in a few minutes") {
   CHECK(text_of("README.md").size() <= 9000);
 }

@@ -177,9 +177,14 @@ TEST_CASE("verification_record: where the rays are, what was proved, what is odd
     return Json::parse(to_json(VerificationRecord{.file = "a/ball.obj", .map = map}));
   };
   CHECK(keys_of(json_of()) ==
-        "sphparam,command,file,rays,mean_length,length_deviation,certificate,fillers,distortion,"
-        "chart,"
-        "notes,seconds");
+        "sphparam,command,input,file,sphere,rays,mean_length,length_deviation,angles,certificate,"
+        "fillers,distortion,chart,warnings,notes,seconds");
+  CHECK(json_of()["input"]["file"] == "a/ball.obj");
+  CHECK(json_of()["input"]["triangles"] == 320);
+  CHECK(json_of()["sphere"].is_null());
+  CHECK(json_of()["angles"].is_null());
+  CHECK(Json::parse(to_json(VerificationRecord{
+            .file = "a.obj", .map = map, .sphere = "s.obj"}))["sphere"] == "s.obj");
   CHECK(json_of()["rays"] == "vertex positions");
   CHECK(json_of()["certificate"]["verdict"] == "one-to-one");
   CHECK(json_of()["notes"].empty());
@@ -187,7 +192,13 @@ TEST_CASE("verification_record: where the rays are, what was proved, what is odd
   map.length_deviation = 0.5;
   map.cut_otherwise = 3;
   CHECK_THAT(roundness_warning(map), StartsWith("these points are not on a sphere"));
-  CHECK(json_of()["notes"][0] == roundness_warning(map));
+  CHECK(json_of()["warnings"][0] == roundness_warning(map));
+  CHECK(json_of()["notes"].empty());
+  map.angles = AngleClaims{.off = 2, .farthest = 0.5};
+  map.warnings = {"theta and phi"};
+  CHECK(json_of()["angles"] == Json({{"off", 2}, {"farthest", 0.5}}));
+  CHECK(json_of()["warnings"] == Json(warnings_of(map)));
+  CHECK(json_of()["warnings"][1] == "theta and phi");
   CHECK(json_of()["rays"] == "vertex positions, 3 of its polygons cut as in the mesh");
   const std::string text = to_text({.file = "a/ball.obj", .map = map, .chart_wanted = true});
   CHECK_THAT(text,

@@ -22,8 +22,8 @@ constexpr char summary[] =
     "  sphparam verify statue.sph.ply --chart         the texture chart too\n"
     "\n"
     "The exit status is 0 when the map (and with --chart its chart) is one-to-one, 5 when it is\n"
-    "not, and 3 when the two files are not of one connectivity: the same vertices in every\n"
-    "triangle.\n";
+    "not or theta and phi are not those of sx sy sz, and 3 when the two files are not of one\n"
+    "connectivity: the same vertices in every triangle.\n";
 
 struct VerifyArguments : CommonArguments {
   std::string file;
@@ -38,8 +38,13 @@ int run_verify(VerifyArguments& arguments) {
   const VerifiedMap map = verify_map(
       arguments.file,
       {.sphere = arguments.sphere, .read = input_limits(), .threads = arguments.threads});
-  if (!map.is_round()) session.console.warning(roundness_warning(map));
-  VerificationRecord record = {.file = arguments.file, .map = map, .chart_wanted = arguments.chart};
+  for (const std::string& note : map.notes) session.console.say("  note: " + note);
+  const Words warnings = warnings_of(map);
+  session.warn(warnings);
+  VerificationRecord record = {.file = arguments.file,
+                               .map = map,
+                               .chart_wanted = arguments.chart,
+                               .sphere = arguments.sphere};
   if (arguments.chart && map.certificate.bijective())
     record.chart = report_chart(map.mesh, map.map, arguments.threads);
   record.seconds = session.stopwatch.seconds();
@@ -50,8 +55,12 @@ int run_verify(VerifyArguments& arguments) {
   session.publish();
   const bool chart_holds =
       !arguments.chart || (record.chart && record.chart->certificate.one_to_one());
-  if (map.certificate.bijective() && chart_holds) return Ok;
-  if (arguments.quiet) print_error(text.substr(0, text.size() - 1));
+  if (map.holds() && chart_holds) return Ok;
+  if (arguments.quiet) {
+    print_error(text.substr(0, text.size() - 1));
+    if (!map.holds())
+      for (const std::string& warning : warnings) print_error(warning);
+  }
   return NotCertified;
 }
 

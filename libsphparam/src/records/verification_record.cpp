@@ -5,6 +5,7 @@
 
 #include "number_text.h"
 #include "records/json_parts.h"
+#include "sphere/radius.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/version.h"
 #include "sphparam/words.h"
@@ -47,7 +48,26 @@ Json fillers_json(const VerifiedMap& map) {
           {"share", map.filler_share}};
 }
 
+Json angles_json(const VerifiedMap& map) {
+  if (!map.angles) return nullptr;
+  return {{"off", map.angles->off}, {"farthest", map.angles->farthest}};
+}
+
+Json input_json(const VerificationRecord& record) {
+  return {{"file", record.file},
+          {"format", record.map.format},
+          {"vertices", record.map.mesh.vertex_count()},
+          {"triangles", record.map.mesh.face_count()}};
+}
+
 }  // namespace
+
+std::vector<std::string> warnings_of(const VerifiedMap& map) {
+  std::vector<std::string> warnings;
+  if (!map.is_round()) warnings.push_back(roundness_warning(map));
+  warnings.insert(warnings.end(), map.warnings.begin(), map.warnings.end());
+  return warnings;
+}
 
 std::string roundness_warning(const VerifiedMap& map) {
   if (map.is_round()) return "";
@@ -61,29 +81,31 @@ std::string roundness_warning(const VerifiedMap& map) {
 }
 
 std::string roundness_warning(const SphereMap& rays) {
-  const VectorX lengths = rays.points.rowwise().norm();
+  const Radius radius = measure_radius(rays.points);
   VerifiedMap map;
   map.of_two_files = true;  // a sphere beside its mesh
-  map.mean_length = lengths.mean();
-  map.length_deviation = (lengths.array() / map.mean_length - 1).abs().maxCoeff();
+  map.mean_length = radius.mean;
+  map.length_deviation = radius.deviation;
   return roundness_warning(map);
 }
 
 std::string to_json(const VerificationRecord& record) {
   const VerifiedMap& map = record.map;
-  std::vector<std::string> notes = map.notes;
-  if (!map.is_round()) notes.push_back(roundness_warning(map));
   return text_of({{"sphparam", version},
                   {"command", "verify"},
+                  {"input", input_json(record)},
                   {"file", record.file},
+                  {"sphere", record.sphere.empty() ? Json() : Json(record.sphere)},
                   {"rays", rays_of(map)},
                   {"mean_length", map.mean_length},
                   {"length_deviation", map.length_deviation},
+                  {"angles", angles_json(map)},
                   {"certificate", certificate_json(map.certificate)},
                   {"fillers", fillers_json(map)},
                   {"distortion", distortion_json(map.distortion)},
                   {"chart", chart_json(record.chart)},
-                  {"notes", notes},
+                  {"warnings", warnings_of(map)},
+                  {"notes", map.notes},
                   {"seconds", record.seconds}});
 }
 

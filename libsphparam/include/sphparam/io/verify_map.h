@@ -21,10 +21,16 @@ enum class RayPlace {
   Positions         // of the vertices: a bare sphere
 };
 
+/// Theta and phi that a file has beside its rays.
+struct AngleClaims {
+  long off = 0;         // vertices whose theta and phi are more than 1e-5 radians from their ray
+  double farthest = 0;  // of these, in radians
+};
+
 /// A map as somebody wrote it, and what was proved of it.
 struct VerifiedMap {
   TriangleMesh mesh;  // its faces are the certificate's: turned over where `reversed` says so
-  SphereMap map;      // as it was found: a ray has no length
+  SphereMap map;      // as it was found: a ray has no length. Longer than 2⁶⁴ it is shortened
   /// Of the map or, where every face is negative, of its mirror image, and `reversed` then: a
   /// sphere seen from inside is one-to-one too.
   Certificate certificate;
@@ -39,7 +45,13 @@ struct VerifiedMap {
   FillerMarks fillers;             // that the mesh's file marks: the map is proved with them
   double filler_share = 0;         // of the sphere; of the map with unit rays
   std::string format;              // of the mesh's file
-  std::vector<std::string> notes;  // of its reader
+  std::vector<std::string> notes;  // of the readers
+  std::optional<AngleClaims> angles = {};  // nothing: none stand beside sx sy sz
+  /// What the file says of the map and the rays do not: theta and phi, poles, meridian, verdict.
+  std::vector<std::string> warnings = {};
+
+  /// Whether the map is one-to-one, and its theta and phi are those of its rays.
+  bool holds() const;
 
   /// Whether the rays are points of a sphere about the origin. Only their directions were judged.
   bool is_round() const;

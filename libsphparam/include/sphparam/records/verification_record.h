@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "sphparam/chart/chart_report.h"
 #include "sphparam/io/verify_map.h"
@@ -15,6 +16,7 @@ struct VerificationRecord {
   bool chart_wanted = false;  // it is told then that there is none
   std::optional<ChartReport> chart = {};
   double seconds = 0;
+  std::string sphere = {};  // a file of its own, with the rays; empty: there is none
 };
 
 /// As `sphparam verify --json` tells it.
@@ -22,6 +24,10 @@ std::string to_json(const VerificationRecord& record);
 
 /// Several lines for people.
 std::string to_text(const VerificationRecord& record);
+
+/// What is to be told of a map that may be one-to-one all the same: its roundness, and what its
+/// file says of it that the rays do not.
+std::vector<std::string> warnings_of(const VerifiedMap& map);
 
 /// Where the rays are no points of a sphere: what was judged instead, and the way out. Else empty.
 std::string roundness_warning(const VerifiedMap& map);
