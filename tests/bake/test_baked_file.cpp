@@ -76,6 +76,27 @@ TEST_CASE("baked file: colours are sRGB in integers and linear in others") {
             .pixels[0] == Approx(0.21404).margin(1e-6));
 }
 
+TEST_CASE("baked file: values beyond the range are counted where they end there, in integers") {
+  const SurfaceField data{.name = "height", .range = std::pair(-2.0, 6.0)};
+  const auto share = [&](ImageFormat format, SampleType type, FieldKind kind) {
+    SurfaceField field = data;
+    field.kind = kind;
+    std::vector<char> bytes;
+    BakedFile file(field, {.width = 4, .height = 2, .format = format, .sample_type = type},
+                   in_memory(bytes));
+    CHECK(range_in_file(field, type).has_value() ==
+          (is_integer(type) || kind == FieldKind::Colour));
+    const std::vector<float> values = {-2.0F, 6.0F, 6.1F, -3.0F, 0, 1, 6.00001F, NAN};
+    file.write_rows(2, values.data());
+    file.close();
+    return file.share_beyond();
+  };
+  CHECK(share(ImageFormat::Png, SampleType::Uint16, FieldKind::Data) == 0.25);
+  CHECK(share(ImageFormat::Png, SampleType::Uint8, FieldKind::Data) == 0.25);
+  CHECK(share(ImageFormat::Tiff, SampleType::Float, FieldKind::Data) == 0);
+  CHECK(share(ImageFormat::Png, SampleType::Uint16, FieldKind::Label) == 0);
+}
+
 TEST_CASE("baked file: PNG of colours says that they are sRGB, of other numbers not") {
   const auto has_chunk = [](FieldKind kind) {
     const SurfaceField field{

@@ -168,6 +168,26 @@ TEST_CASE("bake: every format and depth holds colours, directions, data and labe
   }
 }
 
+TEST_CASE("bake: what integers cut off an area ratio is told, files of floats have all of it") {
+  const Folder folder;
+  write_bytes(folder / "limb.obj", obj_text(tube(60, 5)));
+  const auto baked = [&](const std::string& name) {
+    const Ended ended =
+        sphparam_program({"bake", folder / "limb.obj", "--map", "area", "-o", folder / name,
+                          "--size", "128", "--json", folder / "bake.json"});
+    INFO(ended.err);
+    REQUIRE(ended.code == 0);
+    return std::pair(ended.err, Json::parse(bytes_of(folder / "bake.json"))["images"][0]);
+  };
+  const auto [said, image] = baked("area.png");
+  CHECK(image["range"] == Json({-3.0, 3.0}));
+  CHECK(image["beyond"].get<double>() > 0);
+  CHECK_THAT(said, Contains("% of the texels lie beyond -3 to 3, and end there"));
+  const auto [of_floats, floats] = baked("area.exr");
+  CHECK_FALSE(floats.contains("range"));
+  CHECK_THAT(of_floats, !Contains("beyond"));
+}
+
 TEST_CASE("bake: several maps go to files of their own, all or none") {
   const Folder folder;
   const Ended ended =

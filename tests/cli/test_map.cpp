@@ -148,6 +148,9 @@ TEST_CASE("map: --json has the documented keys") {
     CHECK(report.contains(key));
   }
   CHECK(report["input"]["triangles"] == 320);
+  CHECK(report["input"]["vertex_properties"].empty());  // those of the output are not its input's
+  CHECK(report["input"]["comments"].empty());
+  CHECK(report["distortion"]["flat_faces"] == 0);
   CHECK(report["inspection"]["genus"] == 0);
   CHECK(report["certificate"]["one_to_one"] == true);
   CHECK(report["certificate"]["degree"] == 1);
@@ -210,8 +213,12 @@ TEST_CASE("map: --keep-folded writes a folded map, marked as such, still with co
 TEST_CASE("map: what the paper's method folds, the default method and --repair-map certify") {
   const std::string crumpled = obj_text(folding_mesh());
   CHECK(sphparam_program({"map", "-", "-o", "-"}, crumpled).code == 0);
-  CHECK(sphparam_program({"map", "-", "-o", "-", "--method", "paper", "--repair-map"}, crumpled)
-            .code == 0);
+  const Ended mended =
+      sphparam_program({"map", "-", "-o", "-", "--method", "paper", "--repair-map"}, crumpled);
+  CHECK(mended.code == 0);
+  CHECK_THAT(mended.err, Contains("warning: nothing is left of the map that was to be mended"));
+  CHECK_THAT(mended.out.substr(0, 2000),
+             Contains("comment sphparam anew nothing of the method's own map is left"));
 }
 
 TEST_CASE("map: a mesh that is no sphere ends with 4, all its defects named, nothing written") {

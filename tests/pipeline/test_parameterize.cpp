@@ -86,6 +86,11 @@ TEST_CASE("parameterize: given poles lie at plus and minus z") {
   if (method == Method::Progressive) CHECK(result.poles->north == 17);
 }
 
+  // Of the paper's map nothing is left, which is told.
+  CHECK_FALSE(as_printed.made_anew);
+  CHECK(repaired.made_anew);
+  CHECK(repaired.map.points == parameterize(mesh, ParameterizeOptions{}).map.points);
+  CHECK_THAT(repaired.warnings.back(), Catch::Contains("nothing is left of the map"));
 TEST_CASE(
     "parameterize: pins that fold a triangle are told so, and how far they are from holding") {
   const TriangleMesh mesh = random_sphere_mesh(300, 11);
@@ -209,8 +214,8 @@ TEST_CASE("repair_map: the paper's method has one residual a pin, poles or not")
     CHECK(result.pin_residuals[i] == Approx(angle).epsilon(1e-9));
   }
   CHECK_FALSE(result.poles);
-  REQUIRE(result.warnings.size() == 2);
-  CHECK(result.warnings[1].find("poles") != std::string::npos);
+  REQUIRE(result.warnings.size() == 3);
+  CHECK(result.warnings[2].find("poles") != std::string::npos);
 }
 
 TEST_CASE("parameterize: the same bytes for 1, 2 and 4 threads, twice") {

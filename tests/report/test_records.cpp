@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "records/comparison_record.h"
+#include "sphparam/io/sphere_file.h"
 #include "sphparam/records/bake_record.h"
 #include "sphparam/records/distance_record.h"
 #include "sphparam/records/export_record.h"
@@ -103,6 +104,25 @@ TEST_CASE("map_record: what was asked for, what came out, by the numbers of the 
   CHECK(json["chart"]["certified"] == true);
   CHECK(json["outputs"]["map"] == "ball.sph.ply");
   CHECK(json["seconds"] == 1.5);
+}
+
+TEST_CASE("map_record: the input is what was read, and a shape inside out is warned of") {
+  TriangleMesh mesh = octahedron();
+  mesh.triangles.col(1).swap(mesh.triangles.col(2));
+  MeshSource source = source_of(mesh);
+  source.file.comments = {"by hand"};
+  const InputNames names = input_names(source.file);
+  source.file = attach_map(std::move(source.file), {mesh.positions}, {{"method", "none"}});
+  const ParameterizeOptions options;
+  Parameterization result;
+  result.warnings = {"another"};
+  const MapRecord record{.source = source, .options = options, .result = result, .input = names};
+  const Json json = Json::parse(to_json(record));
+  CHECK(json["input"]["vertex_properties"].empty());
+  CHECK(json["input"]["comments"] == Json({"by hand"}));
+  REQUIRE(json["warnings"].size() == 2);
+  CHECK_THAT(json["warnings"][0].get<std::string>(), StartsWith("inside out"));
+  CHECK(json["warnings"][1] == "another");
 }
 
 TEST_CASE("map_record: a method of others has its account, and no weight of ours") {
@@ -330,7 +350,12 @@ TEST_CASE("bake_record: images, and what they are for") {
   CHECK(json["height"] == 32);
   CHECK(json["images"][0]["file"] == "out/ao.png");
   CHECK(json["images"][0]["range"] == Json({0.0, 1.0}));
+  CHECK(json["images"][0]["beyond"] == 0);
   CHECK(line_of(baked.images[0], settings) == "ball.ply: ao, 64 × 32 uint8 → ao.png");
+  baked.images[0].beyond = 0.025;
+  CHECK_THAT(line_of(baked.images[0], settings),
+             Catch::EndsWith("; 2.5 % of the texels lie beyond 0 to 1, and end there"));
+  CHECK(Json::parse(to_json(record))["images"][0]["beyond"] == 0.025);
 }
 
 TEST_CASE("bake_record: a mesh that lies on the surface baked from has no shares to tell") {
@@ -362,6 +387,20 @@ TEST_CASE("export_record: what is proved of each level, and the files") {
                                      {"bytes_as_given", 100},
                                      {"exact", true}}));
   CHECK(json["levels"][0]["sphere_folds_as_stored"] == 0);
+  CHECK(level_lines(record).empty());
+  CHECK_FALSE(json["levels"][0].contains("rms"));
+  ChartFigures coarse;
+  coarse.triangles = 320;
+  record.charts.push_back(coarse);
+  record.distances = {{.rms = 0.5, .max = 2}};
+  record.diagonal = 100;
+  json = Json::parse(to_json(record));
+  CHECK_FALSE(json["levels"][0].contains("rms"));
+  CHECK(json["levels"][1]["rms"] == 0.5);
+  CHECK(json["levels"][1]["max"] == 2);
+  CHECK(level_lines(record) ==
+        std::vector<std::string>{
+            "level 1, 320 triangles: RMS 0.5 %, at most 2 % of the diagonal, both ways"});
 }
 
 TEST_CASE("remesh_record: the finest level, and the others where there are several") {

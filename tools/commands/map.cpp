@@ -143,8 +143,11 @@ MapOutcome compute(MeshSource source, const MapArguments& arguments, Session& se
   require_mappable(source);
   require_area(source);
   const std::optional<MappedMesh> other = read_other(arguments, session);
-  MapOutcome outcome = {
-      .source = std::move(source), .method = arguments.method, .options = arguments.options};
+  InputNames input = input_names(source.file);
+  MapOutcome outcome = {.source = std::move(source),
+                        .input = std::move(input),
+                        .method = arguments.method,
+                        .options = arguments.options};
   const TriangleMesh& mesh = outcome.source.file.mesh;
   ParameterizeOptions& options = outcome.options;
   options.progress = session.progress();

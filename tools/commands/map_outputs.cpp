@@ -163,7 +163,8 @@ std::string report_on(const MapArguments& arguments, MapOutcome& outcome, const 
                       .other = outcome.other,
                       .distortion = outcome.figures,
                       .chart = figures_of_chart(outcome, session),
-                      .outputs = outputs};
+                      .outputs = outputs,
+                      .input = outcome.input};
   record.seconds = session.stopwatch.seconds();
   return to_json(record);
 }

@@ -11,6 +11,7 @@
 #include "number_text.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/mesh_writer.h"
+#include "sphparam/io/up_axis.h"
 #include "sphparam/records/distance_record.h"
 #include "sphparam/render/coloured_values.h"
 
@@ -88,6 +89,25 @@ std::vector<DistanceLimit> judge(const MeasureArguments& arguments,
   return limits;
 }
 
+/// y points up in glTF, so whatever writes it turns a mesh in which z does: far apart for that
+/// alone.
+void tell_turned(const MeasureArguments& arguments, const MeshFile& first, const MeshFile& second,
+                 const SurfaceDistance& distance, Session& session) {
+  constexpr double far = 0.01;  // of the diagonal
+  const auto is_gltf = [](const MeshFile& file) { return file.format.starts_with("glTF"); };
+  if (is_gltf(first) == is_gltf(second) || distance.rms() < far * distance.diagonal_first) return;
+  const bool first_is_gltf = is_gltf(first);
+  const std::optional<Vector3> up = noted_up(first_is_gltf ? second : first).direction;
+  if (up && *up == Vector3::UnitY()) return;
+  const std::string a = display_name(arguments.first), b = display_name(arguments.second);
+  const std::string& gltf = first_is_gltf ? a : b;
+  const std::string& other = first_is_gltf ? b : a;
+  session.console.say("  y points up in " + gltf + ", which is glTF, and in " + other + " " +
+                      (up ? name_of_direction(*up) + " does" : "nothing says what does") +
+                      ": they may be turned; `sphparam export " + other + " --up y -o " + gltf +
+                      "` writes it as it stands");
+}
+
 /// The exit code.
 int tell_exceeded(const std::vector<DistanceLimit>& limits) {
   int code = Ok;
@@ -108,6 +128,7 @@ int run_measure(MeasureArguments& arguments) {
   const MeshFile second = read_surface(arguments.second, arguments.repair, session);
   session.hold_signals();
   const SurfaceDistance distance = measure(arguments, first, second, session);
+  tell_turned(arguments, first, second, distance, session);
   DistanceRecord record = {.first = arguments.first,
                            .second = arguments.second,
                            .first_file = first,

@@ -8,6 +8,7 @@
 #include "sphparam/frame_check.h"
 #include "sphparam/io/mesh_source.h"
 #include "sphparam/names.h"
+#include "sphparam/records/map_record.h"
 #include "sphparam/sphere/distortion.h"
 
 namespace sphparam::cli {
@@ -16,14 +17,15 @@ namespace sphparam::cli {
 /// verdict when it is read back.
 struct MapOutcome {
   MeshSource source;
+  InputNames input = {};  // of its file, before it gets its map
   AnyMethod method = Method::Progressive;
   ParameterizeOptions options = {};  // with vertices of the mesh
   Parameterization result = {};
   std::optional<BaselineAccount> account = std::nullopt;  // of a method of others
   FrameCheck frame = {};
-  std::string upright = {};                         // `upright_words`
-  std::optional<Likeness> likeness = std::nullopt;  // of a map that follows another mesh's, …
-  std::string other = {};                           // … which has this name
+  std::string upright = {};                             // `upright_words`
+  std::optional<Likeness> likeness = std::nullopt;      // of a map that follows another mesh's, …
+  std::string other = {};                               // … which has this name
   std::optional<Distortion> distortion = std::nullopt;  // where it is to be drawn
   std::optional<DistortionSummary> figures = std::nullopt;
 

@@ -12,6 +12,7 @@
 #include "reports/told_repairs.h"
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/io/losses.h"
+#include "sphparam/records/map_record.h"
 #include "sphparam/words.h"
 
 namespace sphparam::cli {
@@ -77,12 +78,11 @@ void tell_stages(const MapOutcome& outcome, Console& console) {
   for (const std::string& note : outcome.source.notes)
     if (std::find(told.begin(), told.end(), note) == told.end()) console.detail("  note: " + note);
   tell_repairs(outcome.source, console);
-  for (const MeshDefect& defect : outcome.source.inspection.defects) {
-    // What looks wrong on the map is told unasked.
-    const bool visible = defect.kind == DefectKind::InsideOut;
-    visible ? console.warning(defect.message + ": " + defect.hint)
-            : console.detail("  note: " + defect.message);
-  }
+  // What looks wrong on the map is told unasked.
+  for (const std::string& warning : shape_warnings(outcome.source.inspection))
+    console.warning(warning);
+  for (const MeshDefect& defect : outcome.source.inspection.defects)
+    if (defect.kind != DefectKind::InsideOut) console.detail("  note: " + defect.message);
   if (outcome.account) {
     console.say("  " + outcome.account->citation + ": " + outcome.account->statement);
   }

@@ -131,6 +131,8 @@ struct Parameterization {
   std::vector<double> pin_residuals;
   std::optional<DateLine> date_line;  // where the method has one
   std::vector<StageRecord> stages;    // in the order they ran
+  /// Whether the method's map had to give way to another one: of its own points nothing is left.
+  bool made_anew = false;
   std::vector<std::string> warnings;  // "pole 17 moved to 23: its link has a chord", …
 };
 

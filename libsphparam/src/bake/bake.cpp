@@ -89,13 +89,14 @@ ImageTexts texts_of_all(const MappedMesh& source, const BakeSettings& settings) 
   return texts;
 }
 
-BakedImage told(const PlannedImage& image) {
+BakedImage told(const PlannedImage& image, double beyond) {
   return {.field = image.field.name,
           .about = image.field.about,
           .path = image.request.path,
           .sample_type = image.file.sample_type,
           .channels = image.field.channels,
-          .range = image.field.range};
+          .range = range_in_file(image.field, image.file.sample_type),
+          .beyond = beyond};
 }
 
 /// None: none are wanted, or there are none.
@@ -127,8 +128,9 @@ BakeReport bake(const MappedMesh& source, const std::vector<BakeRequest>& images
   for (const BakeRequest& request : images) plan.push_back(plan_image(request, scene, settings));
   for (PlannedImage& image : plan) CalmWalls::calm(scene.walls, image.field);
   find_ranges(plan, scene, settings);
-  write_images(plan, scene, settings, texts_of_all(source, settings), files);
-  for (const PlannedImage& image : plan) report.images.push_back(told(image));
+  const std::vector<double> beyond =
+      write_images(plan, scene, settings, texts_of_all(source, settings), files);
+  for (size_t i = 0; i < plan.size(); ++i) report.images.push_back(told(plan[i], beyond[i]));
   add_sidecars(plan, source, scene, settings, files, report);
   return report;
 }

@@ -46,9 +46,9 @@ ImageFileOptions file_options(const SurfaceField& field, const BakedFileOptions&
   if (field.kind == FieldKind::Direction) {
     add("sphparam:min", "-1");
     add("sphparam:max", "1");
-  } else if (field.range) {
-    add("sphparam:min", shortest(field.range->first));
-    add("sphparam:max", shortest(field.range->second));
+  } else if (const auto range = range_in_file(field, options.sample_type)) {
+    add("sphparam:min", shortest(range->first));
+    add("sphparam:max", shortest(range->second));
   }
   for (const auto& [name, value] : field.texts) add(name.c_str(), value);
   const bool colour = field.kind == FieldKind::Colour;
@@ -88,6 +88,11 @@ std::vector<Sample> integers(const float* values, size_t count, const SurfaceFie
 
 }  // namespace
 
+std::optional<std::pair<double, double>> range_in_file(const SurfaceField& field, SampleType type) {
+  if (!is_integer(type) && field.kind != FieldKind::Colour) return std::nullopt;
+  return field.range;
+}
+
 BakedFile::BakedFile(const SurfaceField& field, const BakedFileOptions& options, ImagePlace file)
     : field_(field), options_(options), writer_(file_options(field, options), std::move(file)) {
   field_.evaluate = {};
@@ -125,7 +130,28 @@ void BakedFile::write_level_rows(const float* values, int rows) {
   }
 }
 
+/// Of a texel one value is enough; what is no number lies nowhere, and half a step is rounding.
+void BakedFile::count_beyond(const float* values, int rows) {
+  texels_ += std::int64_t{rows} * options_.width;
+  if (!is_integer(options_.sample_type) || field_.kind != FieldKind::Data || !field_.range) return;
+  const auto [low, high] = *field_.range;
+  const double full = options_.sample_type == SampleType::Uint8 ? 255 : 65535;
+  const double margin = (high - low) / full / 2;
+  const int channels = field_.channels, proper = field_.proper_channels();
+  for (std::int64_t i = 0; i < std::int64_t{rows} * options_.width; ++i) {
+    const float* const texel = values + i * channels;
+    beyond_ += std::any_of(texel, texel + proper, [&, least = low, most = high](float x) {
+      return x < least - margin || x > most + margin;
+    });
+  }
+}
+
+double BakedFile::share_beyond() const {
+  return texels_ == 0 ? 0 : static_cast<double>(beyond_) / static_cast<double>(texels_);
+}
+
 void BakedFile::write_rows(int rows, const float* values) {
+  count_beyond(values, rows);
   std::vector<float> turned;
   if (options_.convention != Convention::Sphparam) {
     turned = in_convention(options_.convention, options_.width, field_.channels, rows, values);

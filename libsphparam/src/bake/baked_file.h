@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,6 +24,10 @@ struct BakedFileOptions {
 
 class ImageLevel;
 
+/// What the ends of a field's range are to a file: data as integers and the colours of heat maps
+/// end there. Nothing where the values are as they are, or the field has no range.
+std::optional<std::pair<double, double>> range_in_file(const SurfaceField& field, SampleType type);
+
 /// Writes the baked values of a field as an image file, as rows come.
 ///
 /// Colours become sRGB in integer files and stay linear in others; directions become ½ + ½·n, data
@@ -42,18 +47,23 @@ class BakedFile {
   ~BakedFile();
 
   void write_rows(int rows, const float* values);
+  /// The share of the texels so far whose values end at those of the range: 0 but for data in
+  /// integers.
+  double share_beyond() const;
   /// Reads the file back, as `ImageWriter::close` does. Throws: ImageError.
   void close();
 
  private:
   void write_level_rows(const float* values, int rows);
   void encode(const float* values, int rows);
+  void count_beyond(const float* values, int rows);
 
   SurfaceField field_;  // without its functions
   BakedFileOptions options_;
   ImageWriter writer_;
   std::vector<float> pending_;              // rows of a tiled file that fill no tile yet
   std::unique_ptr<ImageLevel> next_level_;  // of a tiled file
+  std::int64_t texels_ = 0, beyond_ = 0;
 };
 
 }  // namespace sphparam

@@ -54,8 +54,9 @@ std::string scale_path(const std::string& image) {
   return (path.parent_path() / (path.stem().string() + "_scale.png")).string();
 }
 
-void write_images(const std::vector<PlannedImage>& images, const BakeScene& scene,
-                  const BakeSettings& settings, const ImageTexts& texts, PendingFiles& files) {
+std::vector<double> write_images(const std::vector<PlannedImage>& images, const BakeScene& scene,
+                                 const BakeSettings& settings, const ImageTexts& texts,
+                                 PendingFiles& files) {
   std::vector<std::unique_ptr<BakedFile>> open;
   for (const PlannedImage& image : images) {
     open.push_back(open_file(image, texts, files));
@@ -77,10 +78,13 @@ void write_images(const std::vector<PlannedImage>& images, const BakeScene& scen
            files_of_baked[i]->write_rows(rows, values);
          });
   }
+  std::vector<double> beyond;
   for (const auto& file : open) {
     report(settings.progress, "write", 0);
     file->close();
+    beyond.push_back(file->share_beyond());
   }
+  return beyond;
 }
 
 }  // namespace sphparam

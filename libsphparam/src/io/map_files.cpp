@@ -92,6 +92,7 @@ Provenance provenance_of(const Parameterization& result, const MapOrigin& origin
                       {"stage", result.made_by},
                       {"options", origin.options},
                       {"poles", words(result.poles, numbers)}};
+  if (result.made_anew) lines.emplace_back("anew", "nothing of the method's own map is left");
   if (!origin.citation.empty()) lines.emplace_back("after", origin.citation);
   if (result.meridian) {
     lines.emplace_back("meridian", std::to_string(numbers.number(*result.meridian)));

@@ -69,10 +69,17 @@ void lift_grid(MapInProgress& work) {
 void repair(MapInProgress& work) {
   if (!work.certified()) untangle_folds(work);
   if (work.certified()) return;
+  const bool replaces = work.result.map.points.rows() > 0 && !work.tried_to_embed;
   embed_from_nothing(work);
   if (!work.certified()) lift_one_vertex(work);
   if (!work.certified()) lift_grid(work);
   if (work.certified()) keep_orientation(work);
+  work.result.made_anew = work.certified() && replaces;
+  if (work.result.made_anew)
+    work.warn(
+        "nothing is left of the map that was to be mended, which has too many folds or could "
+        "not be untangled: another was made (" +
+        work.result.made_by + ")");
 }
 
 }  // namespace sphparam

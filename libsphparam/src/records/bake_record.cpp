@@ -21,7 +21,10 @@ Json images_json(const std::vector<BakedImage>& images) {
                 {"sample_type", name_of(image.sample_type)},
                 {"channels", image.channels}};
     if (!image.sidecar.empty()) one["sidecar"] = image.sidecar;
-    if (image.range) one["range"] = {image.range->first, image.range->second};
+    if (image.range) {
+      one["range"] = {image.range->first, image.range->second};
+      one["beyond"] = image.beyond;
+    }
     result.push_back(std::move(one));
   }
   return result;
@@ -44,6 +47,13 @@ Json projection_json(const BakeRecord& record) {
           {"nearest", shares.nearest},
           {"median_distance", shares.median},
           {"farthest", shares.farthest}};
+}
+
+std::string beyond_words(const BakedImage& image) {
+  if (image.beyond == 0 || !image.range) return "";
+  return "; " + percent(image.beyond) + " of the texels lie beyond " +
+         short_number(image.range->first) + " to " + short_number(image.range->second) +
+         ", and end there";
 }
 
 }  // namespace
@@ -82,7 +92,8 @@ std::string line_of(const ProjectionShares& shares, const BakeSettings& settings
 std::string line_of(const BakedImage& image, const BakeSettings& settings) {
   return settings.source_name + ": " + image.field + ", " + std::to_string(settings.width) + " × " +
          std::to_string(settings.width / 2) + " " + name_of(image.sample_type) + " → " +
-         output_name(image.path) + (image.sidecar.empty() ? "" : ", " + image.sidecar);
+         output_name(image.path) + (image.sidecar.empty() ? "" : ", " + image.sidecar) +
+         beyond_words(image);
 }
 
 }  // namespace sphparam

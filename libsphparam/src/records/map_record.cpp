@@ -138,13 +138,43 @@ Json account_json(const std::optional<BaselineAccount>& account) {
           {"statement", account->statement}};
 }
 
+Json input_json(const MapRecord& record) {
+  Json json = input_json(record.source);
+  if (!record.input) return json;
+  json["vertex_properties"] = record.input->vertex_properties;
+  json["comments"] = record.input->comments;
+  return json;
+}
+
+std::vector<std::string> warnings_of(const MapRecord& record) {
+  std::vector<std::string> warnings = shape_warnings(record.source.inspection);
+  const std::vector<std::string>& made = record.result.warnings;
+  warnings.insert(warnings.end(), made.begin(), made.end());
+  return warnings;
+}
+
 }  // namespace
+
+InputNames input_names(const MeshFile& file) {
+  InputNames names{.comments = file.comments};
+  for (const Property& property : file.vertex_properties)
+    names.vertex_properties.push_back(property.name);
+  return names;
+}
+
+std::vector<std::string> shape_warnings(const MeshInspection& inspection) {
+  std::vector<std::string> warnings;
+  for (const MeshDefect& defect : inspection.defects)
+    if (defect.kind == DefectKind::InsideOut)
+      warnings.push_back(defect.message + ": " + defect.hint);
+  return warnings;
+}
 
 std::string to_json(const MapRecord& record) {
   const FileNumbers numbers(record.source.file);
   Json json = {{"sphparam", version},
                {"command", "map"},
-               {"input", input_json(record.source)},
+               {"input", input_json(record)},
                {"inspection", inspection_json(record.source.inspection)},
                {"repairs", repairs_json(record.source.repairs)},
                {"handles", handles_json(record.source.handles)},
@@ -170,7 +200,7 @@ std::string to_json(const MapRecord& record) {
                {"distortion", distortion_json(record.distortion)},
                {"chart", chart_json(record.chart)},
                {"outputs", pairs_json(record.outputs)},
-               {"warnings", record.result.warnings},
+               {"warnings", warnings_of(record)},
                {"notes", record.source.notes},
                {"seconds", record.seconds}};
   if (!record.upright.empty()) json["upright"] = record.upright;

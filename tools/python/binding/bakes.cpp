@@ -155,7 +155,7 @@ py::list bake_to_files(const Mapped& mapped,
   py::list list;
   for (const BakedImage& image : report.images)
     list.append(py::make_tuple(image.field, image.about, image.path, name_of(image.sample_type),
-                               image.channels, image.range, image.sidecar));
+                               image.channels, image.range, image.sidecar, image.beyond));
   list.append(report.warnings);
   return list;
 }

@@ -237,9 +237,11 @@ class BakedFile(NamedTuple):
     channels: int
     """1, 3 or 4."""
     range: Optional[Tuple[float, float]]
-    """What 0 and 1 of integers stand for, where that is not fixed."""
+    """What 0 and 1 of integers stand for, where that is not fixed; None of files of floats."""
     sidecar: str
     """The file beside it that tells GIS programs where it lies; empty: none."""
+    beyond: float = 0
+    """The share of the texels whose values lie beyond ``range``, and end there."""
 
 
 class Displacement(NamedTuple):

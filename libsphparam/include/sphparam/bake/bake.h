@@ -69,6 +69,7 @@ struct BakedImage {
   SampleType sample_type = SampleType::Uint8;
   int channels = 1;
   std::optional<std::pair<double, double>> range = {};  // what 0 and 1 of integers stand for
+  double beyond = 0;         // share of the texels whose values lie beyond the range, and end there
   std::string sidecar = {};  // the file beside it that says where it lies; empty: none
 };
 

@@ -13,6 +13,15 @@
 
 namespace sphparam {
 
+/// What a file brought, by name, when it was read: its map is attached to it later.
+struct InputNames {
+  std::vector<std::string> vertex_properties, comments;
+};
+InputNames input_names(const MeshFile& file);
+
+/// What looks wrong on any map of a mesh: it is inside out.
+std::vector<std::string> shape_warnings(const MeshInspection& inspection);
+
 /// A map and how it came about. References are to values that outlive the record.
 struct MapRecord {
   const MeshSource& source;            // the mesh, mended where that was wanted
@@ -32,6 +41,7 @@ struct MapRecord {
   std::optional<ChartReport> chart = {};
   std::vector<std::pair<std::string, std::string>> outputs = {};  // what it is, where it is
   double seconds = 0;
+  std::optional<InputNames> input = {};  // where the mesh has got its map since
 };
 
 /// As `sphparam map --json` tells it: vertices go by their numbers in the file.
