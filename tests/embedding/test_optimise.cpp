@@ -5,6 +5,7 @@
 #include "embedding/constructions/progressive.h"
 #include "embedding/energy/map_image.h"
 #include "embedding/energy/solid_angle_aim.h"
+#include "embedding/newton/even_areas.h"
 #include "embedding/newton/global_newton.h"
 #include "embedding/newton/optimise.h"
 #include "sphparam/sphere/certificate.h"
@@ -170,6 +171,44 @@ TEST_CASE("optimise_balance: equal areas are solid angles, also of triangles tha
                        {.balance = Balance::EqualArea});
   CHECK(even.area_error <= 0.1);
   CHECK(certify(topology, even.map).bijective());
+}
+
+TEST_CASE("optimise_balance: areas are even where three triangles are nearly all of the sphere") {
+  TriangleMesh mesh = tetrahedron();
+  mesh.positions.row(0) *= 20;
+  const Topology topology(mesh);
+  const SphereMap start = embedded(mesh, Quality::Normal);
+  const BalancedMap even =
+      optimise_balance(topology, measure_source(mesh), start, {.balance = Balance::EqualArea});
+  CHECK(even.area_error <= 0.1);
+  CHECK(even.lambda == greatest_lambda);
+  CHECK(even.report.steps > 0);
+  const DistortionSummary summary = summarise(measure_distortion(mesh, even.map));
+  CHECK(summary.weighted_abs_log2_area == Approx(even.area_error).epsilon(1e-9));
+  CHECK(summary.mean_abs_ln_angle < 1);  // the climb's is half as much again
+  CHECK(certify(topology, even.map).bijective());
+}
+
+TEST_CASE("even_areas: solid angles become areas, pinned vertices keep their bits") {
+  TriangleMesh mesh = icosphere(2);
+  const SphereMap start{mesh.positions};
+  mesh.positions.col(2) *= 4;
+  const Topology topology(mesh);
+  const RestTriangles source = measure_source(mesh);
+  const auto error_of = [&](const SphereMap& map) {
+    return area_error(topology, source, image_of(map), 1);
+  };
+  REQUIRE(error_of(start) > 0.2);
+  const EvenAreasOptions options{.area_error = 1e-6, .pinned = {0, 17}};
+  const SphereMap even = even_areas(topology, source, start, options);
+  CHECK(error_of(even) < 1e-6);
+  CHECK(certify(topology, even).bijective());
+  for (const Vertex v : options.pinned) CHECK(even.point(v) == start.point(v));
+  EvenAreasOptions alone = options;
+  alone.threads = 1;
+  CHECK(even_areas(topology, source, start, alone).points == even.points);
+  // What is even stays; what is asked for is not overshot by far.
+  CHECK(even_areas(topology, source, even, {}).points == even.points);
 }
 
 TEST_CASE("aimed_at_solid_angles: an icosahedron that is its own map aims at its determinants") {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -33,6 +34,19 @@ TriangleMesh some_mesh(int which) {
     default:
       return random_sphere_mesh(300, 11);
   }
+}
+
+/// Of twelve triangles.
+TriangleMesh box(const std::array<double, 3>& sides) {
+  TriangleMesh mesh;
+  mesh.positions.resize(8, 3);
+  for (int v = 0; v < 8; ++v)
+    for (int axis = 0; axis < 3; ++axis)
+      mesh.positions(v, axis) = sides[static_cast<size_t>(axis)] * ((v >> (2 - axis) & 1) - .5);
+  mesh.triangles.resize(12, 3);
+  mesh.triangles << 0, 2, 6, 6, 4, 0, 0, 4, 5, 5, 1, 0, 4, 6, 5, 5, 6, 7, 3, 2, 0, 0, 1, 3, 3, 6, 2,
+      7, 6, 3, 1, 5, 3, 3, 5, 7;
+  return mesh;
 }
 
 std::string names_of_triangle(const TriangleMesh& mesh, Face face) {
@@ -72,6 +86,11 @@ TEST_CASE("parameterize: the paper's method reports its folds and repairs them o
   const Parameterization repaired = parameterize(mesh, options);
   CHECK(repaired.certificate.bijective());
   CHECK(repaired.made_by != "smoothing");
+  // Of the paper's map nothing is left, which is told.
+  CHECK_FALSE(as_printed.made_anew);
+  CHECK(repaired.made_anew);
+  CHECK(repaired.map.points == parameterize(mesh, ParameterizeOptions{}).map.points);
+  CHECK_THAT(repaired.warnings.back(), Catch::Contains("nothing is left of the map"));
 }
 
 TEST_CASE("parameterize: given poles lie at plus and minus z") {
@@ -86,11 +105,6 @@ TEST_CASE("parameterize: given poles lie at plus and minus z") {
   if (method == Method::Progressive) CHECK(result.poles->north == 17);
 }
 
-  // Of the paper's map nothing is left, which is told.
-  CHECK_FALSE(as_printed.made_anew);
-  CHECK(repaired.made_anew);
-  CHECK(repaired.map.points == parameterize(mesh, ParameterizeOptions{}).map.points);
-  CHECK_THAT(repaired.warnings.back(), Catch::Contains("nothing is left of the map"));
 TEST_CASE(
     "parameterize: pins that fold a triangle are told so, and how far they are from holding") {
   const TriangleMesh mesh = random_sphere_mesh(300, 11);
@@ -160,6 +174,30 @@ TEST_CASE("parameterize: poles cost next to nothing on limbs too, and what they 
       CHECK(energy(map) / energy(free) - 1 == Approx(map.pole_cost).margin(1e-6));
     }
   }
+}
+
+TEST_CASE(
+    "parameterize: equal areas stay equal where poles are moved, of boxes of twelve triangles") {
+  const std::array<double, 3> sides =
+      GENERATE(std::array{1., 1., .1}, std::array{1., 1., 5.}, std::array{1., 1., 2.},
+               std::array{1., 2., 3.}, std::array{1., 1., .002});
+  const TriangleMesh mesh = box(sides);
+  const Parameterization map = parameterize(mesh, {.balance = Balance::EqualArea});
+  CHECK(map.certificate.bijective());
+  REQUIRE(map.poles);
+  CHECK(map.map.point(map.poles->north) == Vector3::UnitZ());
+  CHECK(map.map.point(map.poles->south) == -Vector3::UnitZ());
+  CHECK(summarise(measure_distortion(mesh, map.map)).weighted_abs_log2_area <= 0.1);
+  for (const std::string& warning : map.warnings) CHECK(warning.starts_with("poles raise"));
+}
+
+TEST_CASE("parameterize: what poles cost a box of twelve triangles is told") {
+  const ParameterizeOptions options{.energy = {.kind = EnergyKind::SymmetricDirichlet}};
+  const Parameterization map = parameterize(box({1, 1, .002}), options);
+  REQUIRE(map.poles);
+  REQUIRE(map.pole_cost > 0.03);
+  REQUIRE(map.warnings.size() == 1);
+  CHECK(map.warnings[0].starts_with("poles raise the energy by "));
 }
 
 TEST_CASE("parameterize: the balance that was found is told, and what falls short of its name") {

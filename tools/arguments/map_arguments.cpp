@@ -12,7 +12,7 @@ namespace sphparam::cli {
 
 namespace {
 
-const Range<double> lambdas = {1e-8, 1e3, "1e-8 to 1000"};
+const Range<double> lambdas = {least_lambda, greatest_lambda, "1e-10 to 1e6"};
 
 void settle_poles(const std::string& text, ParameterizeOptions& options) {
   options.automatic_poles = text != "none";

@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "embedding/constructions/progressive.h"
+#include "embedding/energy/map_image.h"
+#include "embedding/energy/solid_angle_aim.h"
 #include "embedding/newton/optimise.h"
 #include "embedding/newton/pressed_fillers.h"
 #include "sphparam/sphere/distortion.h"
@@ -94,21 +96,26 @@ PressedMap settled(const MapInProgress& work, const ProgressiveEmbedding& embedd
   return is_better(at_last, on_the_way, work.options.filler_share) ? at_last : on_the_way;
 }
 
+BalancedMap balanced(MapInProgress& work, const SphereMap& map, double from_lambda,
+                     const std::vector<Pin>& pins) {
+  return optimise_balance(work.topology, work.source(), map,
+                          {.balance = work.options.balance,
+                           .from_lambda = from_lambda,
+                           .optimise = {.energy = work.options.energy,
+                                        .least_gain = least_gain_of(work.options.quality),
+                                        .pinned = vertices_of(pins),
+                                        .threads = work.options.threads,
+                                        .progress = work.options.progress}});
+}
+
 SphereMap balance(MapInProgress& work, const SphereMap& map, double from_lambda,
                   const std::vector<Pin>& pins) {
-  BalancedMap result =
-      optimise_balance(work.topology, work.source(), map,
-                       {.balance = work.options.balance,
-                        .from_lambda = from_lambda,
-                        .optimise = {.energy = work.options.energy,
-                                     .least_gain = least_gain_of(work.options.quality),
-                                     .pinned = vertices_of(pins),
-                                     .threads = work.options.threads,
-                                     .progress = work.options.progress}});
+  BalancedMap result = balanced(work, map, from_lambda, pins);
   work.energy.lambda = result.lambda;
+  work.aim_at(std::move(result.aim));
   const bool moved = result.report.steps > 0 && result.lambda != 1;
   work.result.balance = {moved ? result.lambda : from_lambda, result.area_error, moved};
-  work.record("balance", result.map);
+  work.record(balanced_map, result.map);
   return std::move(result.map);
 }
 
@@ -132,6 +139,22 @@ bool press_fillers_again(MapInProgress& work, SphereMap& map, const std::vector<
   work.record("fillers pressed", pressed.map);
   map = std::move(pressed.map);
   work.result.energy_gap.reset();
+  return true;
+}
+
+bool balance_again(MapInProgress& work, SphereMap& map, const std::vector<Pin>& pins) {
+  std::optional<BalanceRecord>& balance = work.result.balance;
+  if (!balance || work.options.balance != Balance::EqualArea) return false;
+  const double error =
+      area_error(work.topology, work.source(), image_of(map), work.options.threads);
+  if (error <= std::max(balance->area_error, BalanceOptions{}.area_error)) return false;
+  BalancedMap again = balanced(work, map, balance->lambda, pins);
+  if (!(again.area_error < error)) return false;
+  balance = {again.lambda, again.area_error, true};
+  work.energy.lambda = again.lambda;
+  work.aim_at(std::move(again.aim));
+  work.record(balanced_map, again.map);
+  map = std::move(again.map);
   return true;
 }
 

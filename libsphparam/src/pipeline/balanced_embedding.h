@@ -17,6 +17,10 @@ bool embed(MapInProgress& work, const std::vector<Pin>& pins);
 /// does, and the map stays. True: no energy gap is known any more.
 bool press_fillers_again(MapInProgress& work, SphereMap& map, const std::vector<Pin>& pins);
 
+/// Brings areas that poles have moved back to the balance, pins where they are. False: there is
+/// none to bring them to, or nothing to gain, and the map stays.
+bool balance_again(MapInProgress& work, SphereMap& map, const std::vector<Pin>& pins);
+
 /// Warns where the map is not what the balance asked for promises, with the figure it reached:
 /// `work.result.balance` gets that of the finished map.
 void warn_of_balance(MapInProgress& work);

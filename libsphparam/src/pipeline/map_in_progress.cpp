@@ -29,7 +29,10 @@ void MapInProgress::accept(std::string made_by, SphereMap map) {
   report(options.progress, "certificate", 0);
   result.certificate = certify(topology, map, options.threads);
   result.map = std::move(map);
-  if (made_by != balanced_map) result.balance.reset();  // it was that of the map before
+  if (made_by != balanced_map) {  // it was that of the map before
+    result.balance.reset();
+    aim_.clear();
+  }
   result.energy_gap.reset();
   result.made_by = std::move(made_by);
   result.stages.push_back({"certificate", stopwatch_.lap(), -1, result.certificate.fold_count()});

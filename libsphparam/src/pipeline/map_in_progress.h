@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "mesh/unit_size.h"
 #include "sphparam/embedding/distortion_energy.h"
@@ -38,6 +39,9 @@ class MapInProgress {
 
   /// Of the mesh; measured when first needed.
   const RestTriangles& source();
+  /// What the map is optimal for: the source, or what a balance has made of it.
+  const RestTriangles& aim() { return aim_.empty() ? source() : aim_; }
+  void aim_at(RestTriangles aim) { aim_ = std::move(aim); }
 
   bool certified() const { return result.certificate.bijective(); }
 
@@ -59,7 +63,7 @@ class MapInProgress {
   std::optional<DistortionSummary> measured(const SphereMap& map) const;
 
  private:
-  RestTriangles source_;
+  RestTriangles source_, aim_;
   Stopwatch stopwatch_;
 };
 

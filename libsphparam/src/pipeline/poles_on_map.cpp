@@ -7,6 +7,7 @@
 #include "embedding/frame/axis_choice.h"
 #include "embedding/frame/pole_placement.h"
 #include "embedding/newton/optimise.h"
+#include "number_text.h"
 #include "pipeline/balanced_embedding.h"
 #include "pipeline/meridian.h"
 
@@ -17,7 +18,8 @@
 namespace sphparam {
 namespace {
 
-constexpr int pole_sweeps = 10;      // of pinned relaxation after poles were moved
+constexpr int pole_sweeps = 10;                // of pinned relaxation after poles were moved
+constexpr double greatest_silent_cost = 0.03;  // of the energy, that poles are
 constexpr int most_pole_moves = 20;  // on finished maps, which are fine: each costs such sweeps
 
 /// Steps of all vertices, where poles cost more than a share of the energy.
@@ -36,6 +38,13 @@ PolePlacementOptions pole_options(const MapInProgress& work) {
           .progress = work.options.progress};
 }
 
+/// Of a few large triangles poles may be a large part of the map.
+void tell_cost(MapInProgress& work) {
+  if (!(work.result.pole_cost > greatest_silent_cost)) return;
+  work.warn("poles raise the energy by " + percent(work.result.pole_cost) +
+            ": --poles none is without");
+}
+
 /// A meridian needs none.
 void go_without_poles(MapInProgress& work, const std::string& reason) {
   work.warn(reason + ": the map has no poles");
@@ -43,7 +52,13 @@ void go_without_poles(MapInProgress& work, const std::string& reason) {
 }
 
 double energy_of(MapInProgress& work, const SphereMap& map) {
-  return distortion_energy(work.topology, work.source(), map, work.energy, work.options.threads);
+  return distortion_energy(work.topology, work.aim(), map, work.energy, work.options.threads);
+}
+
+/// Without what a balance makes of it.
+double wanted_energy_of(MapInProgress& work, const SphereMap& map) {
+  return distortion_energy(work.topology, work.source(), map, work.options.energy,
+                           work.options.threads);
 }
 
 /// Of maps that were made for their energy alone.
@@ -51,7 +66,7 @@ void settle(MapInProgress& work, PolePlacement& placement) {
   if (!work.result.energy_gap || !work.options.fillers.empty()) return;
   const Settling& how = work.options.quality == Quality::Best ? thorough : brief;
   if (!(placement.energy_after > (1 + how.least_cost) * placement.energy_before)) return;
-  SphereMap settled = optimise(work.topology, work.source(), placement.map,
+  SphereMap settled = optimise(work.topology, work.aim(), placement.map,
                                {.energy = work.energy,
                                 .least_gain = how.least_gain,
                                 .max_steps = how.steps,
@@ -66,19 +81,23 @@ void settle(MapInProgress& work, PolePlacement& placement) {
 }
 
 /// What is relaxed about a pole may be most of a small mesh, and fillers with it.
-void press_again(MapInProgress& work, PolePlacement& placement) {
+void balance_and_press_again(MapInProgress& work, PolePlacement& placement) {
   if (work.options.method != Method::Progressive) return;
   const Vector3 up = Vector3::UnitZ();
   const std::vector<Pin> poles{{placement.north, up}, {placement.south, -up}};
-  if (!press_fillers_again(work, placement.map, poles)) return;
-  placement.energy_after = energy_of(work, placement.map);
+  if (balance_again(work, placement.map, poles)) {
+    placement.energy_before = wanted_energy_of(work, work.result.map);  // its aim is another one
+    placement.energy_after = wanted_energy_of(work, placement.map);
+  }
+  if (press_fillers_again(work, placement.map, poles))
+    placement.energy_after = energy_of(work, placement.map);
 }
 
 }  // namespace
 
 void move_to_poles(MapInProgress& work, Poles poles) {
   std::optional<PolePlacement> placement = place_poles(
-      work.topology, work.source(), work.result.map, poles.north, poles.south, pole_options(work));
+      work.topology, work.aim(), work.result.map, poles.north, poles.south, pole_options(work));
   if (!placement) return;
   work.record("pole placement", placement->map);
   work.accept_if_certified(std::move(placement->map));
@@ -89,10 +108,10 @@ void choose_poles_on_map(MapInProgress& work) {
   const AxisChoice choice =
       choose_axis(work.topology, work.source(), work.result.map, {.threads = work.options.threads});
   std::optional<PolePlacement> placement = place_poles_on_axis(
-      work.topology, work.source(), work.result.map, choice.axis, pole_options(work));
+      work.topology, work.aim(), work.result.map, choice.axis, pole_options(work));
   if (!placement) return go_without_poles(work, "no vertex could be moved to -z");
   settle(work, *placement);
-  press_again(work, *placement);
+  balance_and_press_again(work, *placement);
   const Vertex meridian =
       work.options.meridian ? *work.options.meridian : quiet_meridian(work, placement->map);
   if (!turn(work, placement->map, meridian) &&
@@ -101,6 +120,7 @@ void choose_poles_on_map(MapInProgress& work) {
   }
   work.result.poles = {placement->north, placement->south};
   work.result.pole_cost = placement->energy_after / placement->energy_before - 1;
+  tell_cost(work);
   work.record("pole placement", work.result.map);
 }
 

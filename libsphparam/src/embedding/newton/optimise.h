@@ -65,6 +65,7 @@ struct BalancedMap {
   double lambda;          // it is optimal for
   double area_error;      // its mean |log2 area ratio|, weighted by source area
   OptimiseReport report;  // energies at that λ; steps of all
+  RestTriangles aim;      // with areas corrected, what it is optimal for; empty: for the source
 };
 
 /// Minimises E for a λ far from 1, by continuation: from λ to λ in factors of ten or four, each

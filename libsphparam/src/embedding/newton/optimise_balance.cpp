@@ -6,6 +6,7 @@
 #include "embedding/energy/energy_domain.h"
 #include "embedding/energy/map_image.h"
 #include "embedding/energy/solid_angle_aim.h"
+#include "embedding/newton/even_areas.h"
 #include "embedding/newton/global_newton.h"
 #include "embedding/newton/minimise.h"
 #include "embedding/newton/optimise.h"
@@ -13,7 +14,8 @@
 // From λ to λ, each time from the map before. Equal areas are areas of spherical triangles, where
 // the energy has determinants: where triangles are large its areas are corrected on the way. Where
 // a swift climb ends without equal areas, a slow one from the same start often does not: areas that
-// are to travel along a rod need many steps at each λ.
+// are to travel along a rod need many steps at each λ. Solids of a few triangles, some of a quarter
+// of the sphere and more, are beyond corrections: their areas are made even without an energy.
 // Angles alone leave areas free: limbs end at 1e-14 of the sphere for the last per cent of an
 // angle. So λ is not the least one, but such that areas weigh next to nothing of what angles still
 // miss. A nearly conformal map is one descent from there.
@@ -27,6 +29,7 @@ constexpr double greatest_conformal_lambda = 0.1;
 constexpr double coarse_areas = 5e-3;  // mean |log2| of a determinant over twice a solid angle
 constexpr double steep_lambda = 1e4;   // beyond it a factor of λ that changes no area is the last
 constexpr double idle_climb = 0.01;    // of the area error
+constexpr int most_evened_out = 4000;  // vertices: each step is a sparse factorisation
 
 /// How one factor of λ is made.
 struct Climb {
@@ -63,7 +66,7 @@ class Continuation {
         go_conformal();
         break;
     }
-    return {map_of(image_), lambda_, error_of_areas(), report_};
+    return {map_of(image_), lambda_, error_of_areas(), report_, std::move(aim_)};
   }
 
  private:
@@ -90,15 +93,46 @@ class Continuation {
 
   void go_equal_area() {
     const std::vector<ImagePoint> start = image_;
-    if (climb(swift)) return;
+    if (!climb(swift) && !climb_slowly(start)) even_out(start);
+  }
+
+  bool climb_slowly(const std::vector<ImagePoint>& start) {
     const double error = error_of_areas(), lambda = lambda_, energy = report_.energy_after;
     const std::vector<ImagePoint> swiftly = std::exchange(image_, start);
+    RestTriangles swift_aim = std::exchange(aim_, {});
     lambda_ = options_.from_lambda;
     lay_out(source_);
-    if (climb(slow) || !(error_of_areas() > error)) return;
-    image_ = swiftly;
-    lambda_ = lambda;
-    report_.energy_after = energy;
+    if (climb(slow)) return true;
+    if (error_of_areas() > error) {
+      image_ = swiftly;
+      aim_ = std::move(swift_aim);
+      lambda_ = lambda;
+      report_.energy_after = energy;
+    }
+    return false;
+  }
+
+  /// By areas alone, where a few triangles are so large that determinants do not tell theirs.
+  void even_out(const std::vector<ImagePoint>& start) {
+    const int threads = options_.optimise.threads;
+    if (topology_.vertex_count() > most_evened_out) return;
+    if (!(determinant_error(topology_, source_, image_, threads) > coarse_areas)) return;
+    const double error = error_of_areas();
+    std::vector<ImagePoint> climbed =
+        std::exchange(image_, image_of(even_areas(topology_, source_, map_of(start),
+                                                  {.area_error = options_.area_error,
+                                                   .pinned = options_.optimise.pinned,
+                                                   .threads = threads,
+                                                   .progress = options_.optimise.progress})));
+    if (!(error_of_areas() < error)) {
+      image_ = std::move(climbed);
+      return;
+    }
+    lambda_ = greatest_lambda;
+    aim_ = aimed_at_solid_angles(topology_, source_, image_, threads);
+    lay_out(aim_);
+    report_.energy_after = newton_->energy({.lambda = lambda_});
+    ++report_.steps;
   }
 
   /// Up to the λ at which areas are equal. False: there is none, or none that is found.
@@ -122,7 +156,8 @@ class Continuation {
   void aim_at_solid_angles() {
     const int threads = options_.optimise.threads;
     if (!(determinant_error(topology_, source_, image_, threads) > coarse_areas)) return;
-    lay_out(aimed_at_solid_angles(topology_, source_, image_, threads));
+    aim_ = aimed_at_solid_angles(topology_, source_, image_, threads);
+    lay_out(aim_);
   }
 
   void go_conformal() {
@@ -143,6 +178,7 @@ class Continuation {
   const BalanceOptions& options_;
   double lambda_;
   std::vector<ImagePoint> image_;
+  RestTriangles aim_;           // of solid angles, where they make a difference
   double isometric_areas_ = 0;  // of what `newton_` aims at
   std::optional<GlobalNewton> newton_;
   OptimiseReport report_;
