@@ -71,11 +71,35 @@ MeshSource source_of(const MeshSource& whole, const MeshFile& numbered, const Pa
   return source;
 }
 
+/// Those of the repairs that come before components.
+RepairOptions before_parts(RepairOptions repairs) {
+  repairs.components = repairs.holes = repairs.handles = false;
+  repairs.flat_faces = repairs.unused = false;
+  return repairs;
+}
+
+/// The places alone of a part. names: −1 for each vertex of the whole; for those of the part
+/// theirs then, as no other part has them.
+TriangleMesh mesh_of(const TriangleMesh& whole, const Part& part, std::vector<Vertex>& names) {
+  std::vector<Vertex> vertices;
+  for (const Face f : part.faces)
+    for (const Vertex v : whole.triangles.row(f)) vertices.push_back(v);
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  TriangleMesh mesh{Points(std::ssize(vertices), 3), Triangles(std::ssize(part.faces), 3)};
+  for (int i = 0; i < static_cast<int>(vertices.size()); ++i) {
+    mesh.positions.row(i) = whole.positions.row(vertices[i]);
+    names[vertices[i]] = i;
+  }
+  for (int i = 0; i < static_cast<int>(part.faces.size()); ++i)
+    for (int k = 0; k < 3; ++k) mesh.triangles(i, k) = names[whole.triangles(part.faces[i], k)];
+  return mesh;
+}
+
 }  // namespace
 
 std::vector<MeshPart> connected_parts(MeshSource source, const RepairOptions& repairs) {
-  RepairOptions first = repairs;
-  first.components = first.holes = first.handles = first.flat_faces = first.unused = false;
+  const RepairOptions first = before_parts(repairs);
   if (!names_of(first).empty()) source = mended(std::move(source), first);
   const std::vector<Part> parts = parts_of(source.file.mesh);
   std::vector<MeshPart> result;
@@ -100,22 +124,30 @@ bool PartsTrial::are_enough() const {
 }
 
 // Each part is tried as `map --all-components` maps it: by itself, after what comes before parts.
+// Its places are enough, so that thousands of parts cost no more than one.
 PartsTrial try_parts(const MeshSource& source) {
   PartsTrial trial;
-  const std::vector<MeshPart> parts = connected_parts(source, {});
+  const MeshSource whole = mended(source, before_parts({}));
+  const TriangleMesh& mesh = whole.file.mesh;
+  const std::vector<Part> parts = parts_of(mesh);
   trial.parts = std::ssize(parts);
-  trial.as_they_are = parts.front().source.repairs.empty();
-  double left_out = 0;
-  for (const MeshPart& part : parts) {
-    if (part.source.inspection.is_sphere()) {
+  trial.as_they_are = whole.repairs.empty();
+  std::vector<Vertex> names(static_cast<std::size_t>(mesh.vertex_count()), -1);
+  double area = 0, left_out = 0;
+  for (const Part& part : parts) {
+    area += part.area;
+    MeshSource alone;
+    alone.file.mesh = mesh_of(mesh, part, names);
+    alone.inspection = inspect_mesh(alone.file.mesh);
+    if (alone.inspection.is_sphere()) {
       ++trial.mended;
       continue;
     }
     trial.as_they_are = false;
-    const RepairTrial of_part = try_repair(part.source);
+    const RepairTrial of_part = try_repair(alone);
     const bool mends = of_part.can_mend() && of_part.options.component == 0;
     if (!mends) {
-      left_out += part.area_share;
+      left_out += part.area;
       continue;
     }
     ++trial.mended;
@@ -123,7 +155,7 @@ PartsTrial try_parts(const MeshSource& source) {
     all.largest_hole = std::max(all.largest_hole, of_part.options.largest_hole);
     all.longest_handle = std::max(all.longest_handle, of_part.options.longest_handle);
   }
-  if (trial.mended < trial.parts) trial.area_share = 1 - left_out;
+  if (trial.mended < trial.parts) trial.area_share = area > 0 ? 1 - left_out / area : 0;
   return trial;
 }
 
