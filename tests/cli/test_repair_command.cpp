@@ -102,6 +102,44 @@ TEST_CASE("repair command: what is left is answered with what would mend it") {
                             Contains(" -o " + out + "`"));
 }
 
+TEST_CASE(
+    "repair command: what STL would weld again is told where repair split something, only there") {
+  const Folder folder;
+  const std::string mesh = folder / "ring.obj", out = folder / "ring.ply",
+                    stl = folder / "ring.stl";
+  write_bytes(mesh, obj_text(bumped_torus(8, 20, 0.4, 0, 1)));
+  const Ended ended = sphparam_program({"repair", mesh, "-o", out, "--max-handle", "300%"});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.err,
+             Contains(" vertices lie exactly on others: .ply and .obj keep them apart, STL welds "
+                      "them (") &&
+                 Contains("edges with more than two faces then), and `sphparam wrap " + mesh +
+                          " -o wrapped.ply`"));
+  CHECK(sphparam_program({"map", out, "-o", folder / "ring.sph.ply"}).code == 0);
+  // So it is: the same triangles as STL are not what was mended.
+  const TriangleMesh mended = read_mesh(out).mesh;
+  std::string text = "solid ring\n";
+  for (Face f = 0; f < mended.face_count(); ++f) {
+    text += "facet normal 0 0 0\nouter loop\n";
+    for (int k = 0; k < 3; ++k) {
+      text += "vertex";
+      for (const double x : mended.position(mended.triangles(f, k)))
+        text += " " + std::to_string(x);
+      text += "\n";
+    }
+    text += "endloop\nendfacet\n";
+  }
+  write_bytes(stl, text + "endsolid ring\n");
+  const Ended welded = sphparam_program({"map", stl, "-o", folder / "stl.sph.ply"});
+  CHECK(welded.code == 4);
+  CHECK_THAT(welded.err, Contains("edges have three or more faces"));
+  CHECK(sphparam_program({"wrap", mesh, "-o", folder / "wrapped.ply"}).code == 0);
+
+  CHECK_THAT(sphparam_program({"repair", "-", "-o", out}, obj_text(scan())).err,
+             !Contains("exactly on"));
+}
+
 TEST_CASE("repair command: options are advised before a double dash, not among the files") {
   const Folder folder;
   const std::string mesh = folder / "open.obj", out = folder / "open.sph.ply";

@@ -2,6 +2,7 @@
 
 #include "io/shell_word.h"
 #include "sphparam/io/repair_advice.h"
+#include "sphparam/io/shared_places.h"
 #include "sphparam/words.h"
 
 namespace sphparam::cli {
@@ -24,10 +25,12 @@ void tell_repairs(const MeshSource& source, Console& console) {
   for (const RepairAction& repair : source.repairs) console.say("  " + repair.message);
   if (const std::string lines = handle_lines(source.handles, "    "); !lines.empty())
     console.say(lines.substr(0, lines.size() - 1));
-  if (const std::string kept = kept_line(source.parts, source.repairs); !kept.empty()) console.say("  " + kept);
+  if (const std::string kept = kept_line(source.parts, source.repairs); !kept.empty())
+    console.say("  " + kept);
   if (const std::string whole = kept_whole_line(source); !whole.empty())
     console.say("    " + whole);
-  if (const std::string added = added_line(source); !added.empty()) console.say("  " + added);
+  for (const std::string& line : {added_line(source), shared_places_line(source)})
+    if (!line.empty()) console.say("  " + line);
 }
 
 }  // namespace sphparam::cli
