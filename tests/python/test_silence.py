@@ -290,6 +290,9 @@ def test_a_refusal_says_what_loses_least_first():
     assert "repair=dict(keep_holes=True)) keeps the holes" in refusal(V, F[1:])
     assert "sphparam.wrap(mesh).mesh is one closed surface about all of it" in text
     assert "wrap" not in refusal(V, F[1:])
+    speck = refusal(np.concatenate([V, 1e-2 * V + 9]), two[1])
+    assert "[map(part) for part in sphparam.components(mesh)] maps each component" in speck and "wrap" not in speck
+    assert "map(mesh, repair=True) keeps 99.99 % of the area:" in speck
     assert refusal(V, F + 1) == (
         "faces: the indices count from 1: faces - 1 is what to pass; as they are, 6 faces name vertices that do not exist"
     )

@@ -110,10 +110,10 @@ std::optional<RepairTrial> affordable_trial(const MeshSource& source,
   }
 }
 
-/// What the parts need, where they must be chosen from.
+/// What the parts need, where some would be dropped.
 std::optional<PartsTrial> affordable_parts(const MeshSource& source,
                                            const std::optional<RepairTrial>& trial) {
-  if (!trial || !trial->parts.refused) return std::nullopt;
+  if (!trial || trial->parts.count < 2) return std::nullopt;
   try {
     return try_parts(source);
   } catch (const std::bad_alloc&) {

@@ -35,7 +35,7 @@ std::string all_components_line(const RepairOptions& options);
 /// Cost: that of the repairs.
 PartsTrial try_parts(const MeshSource& source);
 
-/// The refusal of a mesh of several components that no repair keeps as one.
+/// The refusal of a mesh of several components, of which a repair keeps one.
 class PartsRefusal : public MeshRefusal {
  public:
   PartsRefusal(const MeshSource& source, RepairTrial trial, PartsTrial parts)
