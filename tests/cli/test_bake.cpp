@@ -262,6 +262,12 @@ TEST_CASE("bake: a low mesh must be on the sphere of the high one") {
   CHECK(bad.code == 2);
   CHECK_THAT(bad.err, Contains("own.sph.ply: is not on the same sphere"));
   CHECK_FALSE(fs::exists(image));
+  write_bytes(folder / "plain.obj", text);
+  const Ended plain = bake(folder / "plain.obj");
+  INFO(plain.err);
+  CHECK(plain.code == 2);
+  CHECK_THAT(plain.err, Contains("--for: ") && Contains("plain.obj: carries no map") &&
+                            !Contains("mapped now"));
   CHECK(type_advice(bad.err, folder / ".") == 2);
   for (const char* made : {"high_ico6.sph.ply", "own_like.sph.ply"}) {
     const Ended again = bake(folder / made);
@@ -512,6 +518,32 @@ TEST_CASE(
                                       ball);
   CHECK(read.code == 2);
   CHECK(bytes_of(folder / "x.tif.aux.xml") == "mine");
+}
+
+TEST_CASE("bake: where an image of a material cannot be had, what to type is told, and works") {
+  const Folder folder;
+  const std::string shape = folder / "ball.obj";
+  write_bytes(folder / "m.mtl", "newmtl skin\nKd 0 0 1\nmap_Kd nothing.png\n");
+  const std::string ball = "mtllib m.mtl\nusemtl skin\n" + obj_text(icosphere(2));
+  write_bytes(shape, ball);
+  const std::vector<std::string> channels = {"bake",   shape, "--map", "channels",
+                                             "--size", "32",  "-o",    folder / "."};
+  const Ended bare = sphparam_program(channels);
+  INFO(bare.err);
+  CHECK(bare.code == 3);
+  CHECK_THAT(bare.err, Contains("nothing.png cannot be read") &&
+                           Contains("; --texture IMAGE names another for basecolor, `sphparam "
+                                    "asset " +
+                                    shape + "` leaves out images that cannot be read"));
+  const Ended asset = sphparam_program(
+      {"asset", shape, "-o", folder / "made", "--size", "32", "--no-page", "--textures", "png"});
+  INFO(asset.err);
+  REQUIRE(asset.code == 0);
+  CHECK_THAT(asset.err, Contains("not carried: nothing.png of material skin: ") &&
+                            Contains(" baked, ") && Contains("\n  in the .glb: "));
+  const Image blue = read_image(folder / "made/ball_basecolor.png");
+  CHECK(blue.pixel(3, 9)[0] == 0);
+  CHECK(blue.pixel(3, 9)[2] == 1);
 }
 
 TEST_CASE("bake: an image whose sidecar cannot be written does not appear either") {
