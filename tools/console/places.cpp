@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <set>
+#include <string>
+#include <utility>
 
 #include "console/exit_codes.h"
 #include "sphparam/io/companions.h"
@@ -18,10 +20,18 @@ namespace fs = std::filesystem;
 
 using Names = std::vector<std::string>;
 
-std::set<const CLI::Option*>& options_that_write() {
-  static std::set<const CLI::Option*> options;
+/// With its name: a batch parses one command line after the other, and an option may lie in memory
+/// where another one of an earlier line lay.
+using MarkedOption = std::pair<const CLI::Option*, std::string>;
+
+MarkedOption marked(const CLI::Option& option) { return {&option, option.get_name()}; }
+
+std::set<MarkedOption>& options_that_write() {
+  static std::set<MarkedOption> options;
   return options;
 }
+
+bool writes(const CLI::Option& option) { return options_that_write().contains(marked(option)); }
 
 Names& noted_files() {
   static Names files;
@@ -95,12 +105,12 @@ void require_distinct(const Outputs& outputs) {
 
 }  // namespace
 
-void mark_written(const CLI::Option& option) { options_that_write().insert(&option); }
+void mark_written(const CLI::Option& option) { options_that_write().insert(marked(option)); }
 
 std::vector<std::string> files_read(const CLI::App& command) {
   Names files;
   for (const CLI::Option* option : command.get_options()) {
-    if (options_that_write().contains(option)) continue;
+    if (writes(*option)) continue;
     for (std::string& file : files_named(*option)) files.push_back(std::move(file));
   }
   return files;
@@ -109,7 +119,7 @@ std::vector<std::string> files_read(const CLI::App& command) {
 std::vector<std::string> files_written(const CLI::App& command) {
   Names files;
   for (const CLI::Option* option : command.get_options()) {
-    if (!options_that_write().contains(option)) continue;
+    if (!writes(*option)) continue;
     for (const std::string& path : option->results())
       if (!is_stream(path) && holds_one_output(path)) files.push_back(path);
   }
@@ -121,7 +131,7 @@ void note_files_read(const CLI::App& command) {
   keep_from_outputs(noted_files());
   guard_companions();
   for (const CLI::Option* option : command.get_options()) {
-    if (!options_that_write().contains(option)) continue;
+    if (!writes(*option)) continue;
     for (const std::string& file : files_named(*option)) require_not_read(option->get_name(), file);
   }
 }
