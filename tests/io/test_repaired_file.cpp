@@ -96,6 +96,52 @@ TEST_CASE("repaired_file: colours of corners go where their corners go") {
   }
 }
 
+TEST_CASE("repaired_file: where vertices are welded by nearness, faces keep their own colours") {
+  // The faces of the northern half use copies, a little higher and of another colour.
+  TriangleMesh mesh = icosphere(3);
+  const Vertex copies = static_cast<Vertex>(mesh.vertex_count());
+  mesh.positions.conservativeResize(2 * copies, 3);
+  for (Vertex v = 0; v < copies; ++v) {
+    mesh.positions.row(copies + v) = mesh.positions.row(v);
+    mesh.positions(copies + v, 2) += 1e-3;
+  }
+  for (Face f = 0; f < mesh.face_count(); ++f) {
+    double height = 0;
+    for (int k = 0; k < 3; ++k) height += mesh.positions(mesh.triangles(f, k), 2);
+    if (height > 0) mesh.triangles.row(f).array() += copies;
+  }
+  const auto colour_of = [&](Vertex v) { return v < copies ? 10.0 : 200.0; };
+  MeshFile file;
+  file.mesh = mesh;
+  for (const char* name : {"red", "green", "blue"}) {
+    Property channel{name, ScalarType::Uint8, {}};
+    for (Vertex v = 0; v < mesh.vertex_count(); ++v) channel.values.push_back(colour_of(v));
+    file.set_vertex_property(channel);
+  }
+  const RepairedMesh repaired = repair_mesh(mesh, {.weld_length = 2e-3});
+  REQUIRE(repaired.inspection.is_sphere());
+  const MeshFile after = repaired_file(file, repaired);
+  const auto colours = corner_colours(after);
+  REQUIRE(colours);
+  CHECK(after.find_face_property("corner_red_0")->type == ScalarType::Uint8);
+  CHECK_FALSE(after.find_face_property("corner_alpha_0"));
+  const std::vector<double>& kept = after.find_vertex_property("red")->values;
+  long others = 0;
+  for (Face f = 0; f < after.mesh.face_count(); ++f) {
+    const double own = colour_of(mesh.triangles(repaired.face_origin[f], 0));
+    for (int k = 0; k < 3; ++k) {
+      CHECK(colours->row(3 * f + k) == Eigen::RowVector4d(own, own, own, 0));
+      others += kept[after.mesh.triangles(f, k)] != own;
+    }
+  }
+  CHECK(others > 20);
+
+  for (const char* name : {"red", "green", "blue"})
+    file.set_vertex_property({name, ScalarType::Uint8,
+                              std::vector<double>(static_cast<size_t>(mesh.vertex_count()), 90)});
+  CHECK_FALSE(corner_colours(repaired_file(file, repaired)));
+}
+
 TEST_CASE("repaired_file: a created vertex has the mean of its neighbours and no source") {
   TriangleMesh mesh = octahedron();
   mesh.triangles.conservativeResize(1, 3);

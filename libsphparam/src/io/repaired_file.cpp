@@ -1,5 +1,6 @@
 #include "io/repaired_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -138,9 +139,49 @@ void gather_second_texcoords(MeshFile& result, const MeshFile& file, const Repai
   result.corner_texcoords.swap(result.second_texcoords);
 }
 
+/// By corner: its vertex in the input where that was welded onto another one; else −1.
+std::vector<Vertex> welded_vertices(const MeshFile& file, const RepairedMesh& repaired) {
+  std::vector<Vertex> welded(repaired.corner_origin.size(), -1);
+  std::vector<char> is_gone(static_cast<std::size_t>(file.mesh.vertex_count()), 1);
+  for (const Vertex v : repaired.vertex_origin)
+    if (v >= 0) is_gone[v] = 0;
+  for (std::size_t i = 0; i < welded.size(); ++i) {
+    const Vertex v = file.mesh.triangles.data()[repaired.corner_origin[i]];
+    const bool is_there = v >= 0 && v < file.mesh.vertex_count();
+    if (repaired.face_origin[i / 3] >= 0 && is_there && is_gone[v]) welded[i] = v;
+  }
+  for (const BlendedCorner& corner : repaired.blended) welded[corner.corner] = -1;
+  return welded;
+}
+
+/// As exact copies do (welding.h), where a vertex was welded onto one of another colour.
+void keep_colours_of_welded(MeshFile& result, const MeshFile& file, const RepairedMesh& repaired) {
+  const bool welds = std::ranges::any_of(repaired.actions, [](const RepairAction& action) {
+    return action.kind == RepairKind::VertexWelded;
+  });
+  for (const char* name : {"red", "green", "blue"})
+    if (!welds || !file.find_vertex_property(name)) return;
+  const std::vector<Vertex> welded = welded_vertices(file, repaired);
+  CornerColours colours = CornerColours::Zero(result.mesh.triangles.size(), 4);
+  bool differ = false;
+  Eigen::Index channel = 0;
+  for (const char* name : {"red", "green", "blue", "alpha"}) {
+    const Property *before = file.find_vertex_property(name),
+                   *now = result.find_vertex_property(name);
+    for (Eigen::Index i = 0; before && i < colours.rows(); ++i) {
+      const double shown = now->values[result.mesh.triangles.data()[i]];
+      const Vertex own = welded[i];
+      colours(i, channel) = own < 0 ? shown : before->values[own];
+      differ = differ || (own >= 0 && before->values[own] != shown);
+    }
+    ++channel;
+  }
+  if (differ) set_corner_colours(result, colours);
+}
+
 void gather_corner_colours(MeshFile& result, const MeshFile& file, const RepairedMesh& repaired) {
   std::optional<CornerColours> colours = corner_colours(file);
-  if (!colours) return;
+  if (!colours) return keep_colours_of_welded(result, file, repaired);
   gather_corners(colours, repaired);
   set_corner_colours(result, *colours);
 }
