@@ -144,6 +144,11 @@ TEST_CASE("welding: where copies have several colours, corners keep their own") 
   MeshFile painted = welded;
   painted.set_vertex_property(*welded.find_vertex_property("green"));
   CHECK_FALSE(corner_colours(painted));
+  painted = welded;
+  painted.set_vertex_property(
+      {"alpha", ScalarType::Uint8,
+       std::vector<double>(static_cast<std::size_t>(welded.mesh.vertex_count()), 128)});
+  CHECK_FALSE(corner_colours(painted));
 }
 
 TEST_CASE("welding: a copy that no face uses wins nothing") {

@@ -38,7 +38,8 @@ const Property* MeshFile::find_face_property(const std::string& name) const {
 
 void MeshFile::set_vertex_property(Property property) {
   // A colour that is set is that of all corners.
-  if (property.name == "red" || property.name == "green" || property.name == "blue")
+  const std::string& name = property.name;
+  if (name == "red" || name == "green" || name == "blue" || name == "alpha")
     remove_corner_colours(*this);
   add_or_replace(vertex_properties, std::move(property));
 }
