@@ -9,6 +9,7 @@
 #include "support/shaken.h"
 #include "support/test_meshes.h"
 #include "support/volume_surface.h"
+#include "support/without_area.h"
 
 namespace sphparam::tests {
 
@@ -93,6 +94,24 @@ TEST_CASE(
   CHECK_THAT(refused.err, Contains("cannot be mapped: not closed: 3 boundary edges") &&
                               Contains("--all-components -o " + map + " --repair`") &&
                               !Contains("--component 1"));
+}
+
+TEST_CASE("repair: a component without area is left out of all, and the others are mapped") {
+  const Folder folder;
+  const std::string mesh = folder / "m.obj", map = folder / "m.sph.ply";
+  write_bytes(mesh, obj_text(joined(icosphere(2), collapsed_tetrahedron(), {9, 0, 0})));
+  for (const bool repairs : {false, true}) {
+    std::vector<std::string> command = {"map", mesh, "--all-components", "-o", map};
+    if (repairs) command.emplace_back("--repair");
+    const Ended ended = sphparam_program(command);
+    INFO(ended.err);
+    CHECK(ended.code == 0);
+    CHECK_THAT(ended.err, Contains("component 2 of 2 (0 % of the area, 4 triangles) cannot be "
+                                   "mapped: ") &&
+                              Contains("no area that can be measured") &&
+                              Contains("1 map written") && Contains("left out: component 2 of 2"));
+  }
+  CHECK(folder.names() == std::vector<std::string>{"m.obj", "m_0001.sph.ply"});
 }
 
 TEST_CASE("repair: of several components all ways are told, and each that is typed works") {

@@ -10,6 +10,7 @@
 #include "support/shaken.h"
 #include "support/test_meshes.h"
 #include "support/volume_surface.h"
+#include "support/without_area.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;
@@ -121,6 +122,13 @@ TEST_CASE("repair_advice: what no repair maps in its parts is not said to be map
   CHECK(try_parts(specked).are_enough());
   CHECK_THAT(repair_advice(try_repair(specked), specked.path, "", try_parts(specked)),
              Contains("--repair --all-components maps all but 1 speck, each into a file"));
+  const PartsTrial flat =
+      try_parts(source_of(joined(two_balls(), collapsed_tetrahedron(), {0, 4, 0}), "flat.ply"));
+  CHECK(flat.parts == 3);
+  CHECK(flat.mended == 2);  // what is closed but has no area is not mapped
+  CHECK(flat.area_share == 1);
+  CHECK_FALSE(flat.as_they_are);
+  CHECK(flat.are_enough());
 }
 
 TEST_CASE(

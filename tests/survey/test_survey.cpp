@@ -15,6 +15,7 @@
 #include "support/one_sided.h"
 #include "support/shaken.h"
 #include "support/test_meshes.h"
+#include "support/without_area.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;
@@ -175,6 +176,7 @@ TEST_CASE("survey: components that cannot be mapped are left out as map leaves t
     return joined(icosphere(2), plane, {20, 20, 20});
   };
   meshes.write("half.off", with_plane(0.5));
+  meshes.write("flat.off", joined(Meshes::two_balls(), collapsed_tetrahedron(), {20, 20, 20}));
   meshes.write("specks.off", joined(with_plane(0.02), with_plane(0.02), {50, 50, 50}));
   const Survey survey = survey_folder(meshes.folder.string(), {.picture_size = 0});
   const SurveyedMesh& specks = named(survey, "specks.off");
@@ -184,6 +186,12 @@ TEST_CASE("survey: components that cannot be mapped are left out as map leaves t
   CHECK(contains(specks.best_way()->told, "left out: component 4 ("));
   CHECK(contains(specks.best_way()->told, "one-sided"));
   CHECK_FALSE(specks.best_way()->drops_much());
+  const SurveyedMesh& flat = named(survey, "flat.off");
+  REQUIRE(flat.best_way());
+  CHECK(flat.best_way()->options == "--repair --all-components");
+  CHECK(contains(flat.best_way()->told, "2 of 3 components map"));
+  CHECK(contains(flat.best_way()->told, "left out: component 3 (0 % of the area): "));
+  CHECK(contains(flat.best_way()->told, "no area that can be measured"));
   const SurveyedMesh& half = named(survey, "half.off");
   CHECK_FALSE(half.ways.back().certified);
   CHECK(half.ways.back().drops_much());

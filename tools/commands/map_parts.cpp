@@ -13,6 +13,7 @@
 #include "console/exit_codes.h"
 #include "number_text.h"
 #include "reports/map_wording.h"
+#include "sphparam/errors.h"
 #include "sphparam/io/components.h"
 #include "sphparam/io/paths.h"
 
@@ -80,14 +81,21 @@ class PartsRun {
       tell_stages(outcome, session_.console);
       add(number, outcome);
     } catch (const MeshError& error) {
-      session_.console.say(name + " cannot be mapped: " + reasons_of(error));
-      lost_ += share;
-      if (!refused_) {
-        refused_ = std::current_exception();
-        first_refused_ = name;
-      }
-      left_out_.push_back(name);
+      leave_out(name, share, reasons_of(error));
+    } catch (const UnmeasurableMesh& error) {  // a speck without area
+      leave_out(name, share, error.what());
     }
+  }
+
+  /// Requires: the exception that says why is being handled.
+  void leave_out(const std::string& name, double share, const std::string& why) {
+    session_.console.say(name + " cannot be mapped: " + why);
+    lost_ += share;
+    if (!refused_) {
+      refused_ = std::current_exception();
+      first_refused_ = name;
+    }
+    left_out_.push_back(name);
   }
 
   void add(size_t number, MapOutcome& outcome) {

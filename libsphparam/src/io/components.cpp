@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "io/mesh_part.h"
+#include "mesh/flat_face.h"
 #include "mesh/triangle_geometry.h"
 #include "mesh/union_find.h"
 #include "sphparam/io/file_numbers.h"
@@ -139,11 +140,16 @@ PartsTrial try_parts(const MeshSource& source) {
     MeshSource alone;
     alone.file.mesh = mesh_of(mesh, part, names);
     alone.inspection = inspect_mesh(alone.file.mesh);
-    if (alone.inspection.is_sphere()) {
+    const bool has_shape = has_area(alone.file.mesh);
+    if (has_shape && alone.inspection.is_sphere()) {
       ++trial.mended;
       continue;
     }
     trial.as_they_are = false;
+    if (!has_shape) {  // whatever is mended, there is nothing to map
+      left_out += part.area;
+      continue;
+    }
     const RepairTrial of_part = try_repair(alone);
     const bool mends = of_part.can_mend() && of_part.options.component == 0;
     if (!mends) {

@@ -186,6 +186,8 @@ class Surveyor {
       return "";
     } catch (const MeshError& error) {
       return joined(messages(error.defects()), "; ");
+    } catch (const UnmeasurableMesh& error) {  // a speck without area
+      return error.what();
     } catch (const NotCertifiedError& error) {
       folds = true;
       return error.what();
