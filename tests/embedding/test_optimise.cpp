@@ -200,15 +200,24 @@ TEST_CASE("even_areas: solid angles become areas, pinned vertices keep their bit
   };
   REQUIRE(error_of(start) > 0.2);
   const EvenAreasOptions options{.area_error = 1e-6, .pinned = {0, 17}};
-  const SphereMap even = even_areas(topology, source, start, options);
+  const EvenedMap evened = even_areas(topology, source, start, options);
+  const SphereMap& even = evened.map;
+  CHECK(evened.steps > 0);
   CHECK(error_of(even) < 1e-6);
   CHECK(certify(topology, even).bijective());
   for (const Vertex v : options.pinned) CHECK(even.point(v) == start.point(v));
   EvenAreasOptions alone = options;
   alone.threads = 1;
-  CHECK(even_areas(topology, source, start, alone).points == even.points);
+  CHECK(even_areas(topology, source, start, alone).map.points == even.points);
   // What is even stays; what is asked for is not overshot by far.
-  CHECK(even_areas(topology, source, even, {}).points == even.points);
+  const EvenedMap again = even_areas(topology, source, even, {});
+  CHECK(again.steps == 0);
+  CHECK(again.map.points == even.points);
+  // Where all are pinned nothing moves.
+  EvenAreasOptions none = options;
+  none.pinned.clear();
+  for (Vertex v = 0; v < topology.vertex_count(); ++v) none.pinned.push_back(v);
+  CHECK(even_areas(topology, source, start, none).map.points == start.points);
 }
 
 TEST_CASE("aimed_at_solid_angles: an icosahedron that is its own map aims at its determinants") {

@@ -191,6 +191,17 @@ TEST_CASE(
   for (const std::string& warning : map.warnings) CHECK(warning.starts_with("poles raise"));
 }
 
+TEST_CASE("parameterize: where areas are made even and fillers pressed, poles cost one energy") {
+  const TriangleMesh mesh = box({1, 1, .1});
+  FillerMarks fillers(12, 0);
+  fillers[10] = 1;
+  const Parameterization map =
+      parameterize(mesh, {.fillers = fillers, .filler_share = 0.02, .balance = Balance::EqualArea});
+  CHECK(map.certificate.bijective());
+  REQUIRE(map.poles);
+  CHECK(std::abs(map.pole_cost) < 100);  // a part of what is 10⁶ times as much is beyond
+}
+
 TEST_CASE("parameterize: what poles cost a box of twelve triangles is told") {
   const ParameterizeOptions options{.energy = {.kind = EnergyKind::SymmetricDirichlet}};
   const Parameterization map = parameterize(box({1, 1, .002}), options);

@@ -65,11 +65,12 @@ void hold(MapInProgress& work, const std::vector<Pin>& pins) {
   const double energy = distortion_energy(work.topology, work.source(), work.result.map, measure,
                                           work.options.threads);
   Parameterization before = work.result;
+  MapInProgress::BalanceState balance = work.balance_state();
   work.forget_poles();
   const bool held = embed(work, pins) && work.certified();
   if (!held || (work.options.pins.empty() && !all_exact(pin_residuals(work.result.map, pins)))) {
     work.result = std::move(before);
-    work.energy = measure;  // its λ is the map's
+    work.restore(std::move(balance));  // λ is the map's
     if (work.options.pins.empty()) move_to_poles(work, {pins[0].vertex, pins[1].vertex});
   }
   if (!note_residuals(work, pins)) work.warn("the poles could not be moved to ±z without folds");

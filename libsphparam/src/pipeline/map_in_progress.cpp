@@ -20,6 +20,12 @@ const RestTriangles& MapInProgress::source() {
   return source_;
 }
 
+void MapInProgress::restore(BalanceState state) {
+  energy = state.energy;
+  aim_ = std::move(state.aim);
+  result.balance = state.record;
+}
+
 void MapInProgress::forget_poles() {
   result.poles.reset();
   result.date_line.reset();

@@ -43,6 +43,15 @@ class MapInProgress {
   const RestTriangles& aim() { return aim_.empty() ? source() : aim_; }
   void aim_at(RestTriangles aim) { aim_ = std::move(aim); }
 
+  /// What a balance has changed, to go back to where its map is not taken.
+  struct BalanceState {
+    DistortionEnergy energy;
+    RestTriangles aim;
+    std::optional<BalanceRecord> record;
+  };
+  BalanceState balance_state() const { return {energy, aim_, result.balance}; }
+  void restore(BalanceState state);
+
   bool certified() const { return result.certificate.bijective(); }
 
   /// `map` is the map so far, with its certificate.

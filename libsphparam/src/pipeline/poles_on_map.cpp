@@ -42,7 +42,7 @@ PolePlacementOptions pole_options(const MapInProgress& work) {
 void tell_cost(MapInProgress& work) {
   if (!(work.result.pole_cost > greatest_silent_cost)) return;
   work.warn("poles raise the energy by " + percent(work.result.pole_cost) +
-            ": --poles none is without");
+            ": a map without them has less");
 }
 
 /// A meridian needs none.
@@ -85,12 +85,14 @@ void balance_and_press_again(MapInProgress& work, PolePlacement& placement) {
   if (work.options.method != Method::Progressive) return;
   const Vector3 up = Vector3::UnitZ();
   const std::vector<Pin> poles{{placement.north, up}, {placement.south, -up}};
-  if (balance_again(work, placement.map, poles)) {
-    placement.energy_before = wanted_energy_of(work, work.result.map);  // its aim is another one
+  const bool balanced = balance_again(work, placement.map, poles);
+  const bool pressed = press_fillers_again(work, placement.map, poles);
+  if (balanced) {  // which aims at something else
+    placement.energy_before = wanted_energy_of(work, work.result.map);
     placement.energy_after = wanted_energy_of(work, placement.map);
-  }
-  if (press_fillers_again(work, placement.map, poles))
+  } else if (pressed) {
     placement.energy_after = energy_of(work, placement.map);
+  }
 }
 
 }  // namespace
@@ -111,11 +113,13 @@ void choose_poles_on_map(MapInProgress& work) {
       work.topology, work.aim(), work.result.map, choice.axis, pole_options(work));
   if (!placement) return go_without_poles(work, "no vertex could be moved to -z");
   settle(work, *placement);
+  MapInProgress::BalanceState before = work.balance_state();
   balance_and_press_again(work, *placement);
   const Vertex meridian =
       work.options.meridian ? *work.options.meridian : quiet_meridian(work, placement->map);
   if (!turn(work, placement->map, meridian) &&
       !work.accept_if_certified(std::move(placement->map))) {
+    work.restore(std::move(before));
     return go_without_poles(work, "turning the map to its poles folds it by rounding");
   }
   work.result.poles = {placement->north, placement->south};

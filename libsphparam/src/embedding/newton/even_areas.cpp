@@ -1,6 +1,7 @@
 #include "embedding/newton/even_areas.h"
 
 #include <Eigen/SparseCholesky>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -54,15 +55,16 @@ class EvenAreas {
       if (unknown == 0) unknown = 2 * count_++;
   }
 
-  SphereMap run() {
+  EvenedMap run() {
     state_ = state_of(map_);
-    for (int steps = 0; steps < most_steps && state_.error > enough * options_.area_error;
+    int steps = 0;
+    for (; count_ > 0 && steps < most_steps && state_.error > enough * options_.area_error;
          ++steps) {
       report(options_.progress, "balance", static_cast<double>(steps) / most_steps);
       const double before = state_.squares;
       if (!step() || state_.squares > (1 - least_gain) * before) break;
     }
-    return std::move(map_);
+    return {std::move(map_), steps};
   }
 
  private:
@@ -203,7 +205,7 @@ class EvenAreas {
 
 }  // namespace
 
-SphereMap even_areas(const Topology& topology, const RestTriangles& source, SphereMap map,
+EvenedMap even_areas(const Topology& topology, const RestTriangles& source, SphereMap map,
                      const EvenAreasOptions& options) {
   return EvenAreas(topology, source, std::move(map), options).run();
 }

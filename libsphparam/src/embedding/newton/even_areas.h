@@ -14,6 +14,11 @@ struct EvenAreasOptions {
   Progress progress = {};
 };
 
+struct EvenedMap {
+  SphereMap map;
+  int steps;
+};
+
 /// Makes solid angles Ω of image triangles equal to the areas A of the source, by Gauss–Newton
 /// steps on Σ A (ln Ω/A)². A step is the one that reaches the wanted areas, or comes near, with the
 /// least deformation of triangles, each by its source's area. Determinants, which are what the
@@ -25,7 +30,7 @@ struct EvenAreasOptions {
 /// enough, or where steps gain next to nothing.
 /// Requires: a bijective map. Cost: one sparse factorisation of two unknowns a vertex a step, as a
 /// rule some tens of steps. Source: our own; Levenberg and Marquardt for the steps.
-SphereMap even_areas(const Topology& topology, const RestTriangles& source, SphereMap map,
+EvenedMap even_areas(const Topology& topology, const RestTriangles& source, SphereMap map,
                      const EvenAreasOptions& options = {});
 
 }  // namespace sphparam

@@ -62,7 +62,7 @@ struct BalanceOptions {
 
 struct BalancedMap {
   SphereMap map;
-  double lambda;          // it is optimal for
+  double lambda;  // it is optimal for; `greatest_lambda` where areas were made even without energy
   double area_error;      // its mean |log2 area ratio|, weighted by source area
   OptimiseReport report;  // energies at that λ; steps of all
   RestTriangles aim;      // with areas corrected, what it is optimal for; empty: for the source
@@ -71,12 +71,14 @@ struct BalancedMap {
 /// Minimises E for a λ far from 1, by continuation: from λ to λ in factors of ten or four, each
 /// time from the map before. Straight from λ = 1 the steps would be many and short. Equal areas are
 /// solid angles: where triangles are large, E's areas are corrected (see solid_angle_aim.h), and
-/// energies are of these. Where they are missed the climb is made again, in factors of two. A
+/// energies are of these. Where they are missed the climb is made again, in factors of two, and
+/// where that fails on up to 4,000 vertices, some of large triangles, comes `even_areas`. A
 /// nearly conformal map is minimised at once, for the λ at which areas weigh 0.3 % of what its
 /// angles miss, at most 0.1.
 /// Requires: EnergyKind::AngleAndArea. Ensures: as `optimise`, but for E itself.
 /// Throws: std::invalid_argument naming an option outside of its domain; Cancelled.
-/// Cost: 3 to 5 steps a factor, of a second climb up to 60. Source: our own.
+/// Cost: 3 to 5 steps a factor, of a second climb up to 60; then that of `even_areas`. Source: our
+/// own.
 BalancedMap optimise_balance(const Topology& topology, const RestTriangles& source,
                              const SphereMap& map, const BalanceOptions& options);
 

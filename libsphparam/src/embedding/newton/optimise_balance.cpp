@@ -118,12 +118,13 @@ class Continuation {
     if (topology_.vertex_count() > most_evened_out) return;
     if (!(determinant_error(topology_, source_, image_, threads) > coarse_areas)) return;
     const double error = error_of_areas();
-    std::vector<ImagePoint> climbed =
-        std::exchange(image_, image_of(even_areas(topology_, source_, map_of(start),
-                                                  {.area_error = options_.area_error,
-                                                   .pinned = options_.optimise.pinned,
-                                                   .threads = threads,
-                                                   .progress = options_.optimise.progress})));
+    const EvenedMap even = even_areas(topology_, source_, map_of(start),
+                                      {.area_error = options_.area_error,
+                                       .pinned = options_.optimise.pinned,
+                                       .threads = threads,
+                                       .progress = options_.optimise.progress});
+    report_.steps += even.steps;
+    std::vector<ImagePoint> climbed = std::exchange(image_, image_of(even.map));
     if (!(error_of_areas() < error)) {
       image_ = std::move(climbed);
       return;
@@ -132,7 +133,6 @@ class Continuation {
     aim_ = aimed_at_solid_angles(topology_, source_, image_, threads);
     lay_out(aim_);
     report_.energy_after = newton_->energy({.lambda = lambda_});
-    ++report_.steps;
   }
 
   /// Up to the λ at which areas are equal. False: there is none, or none that is found.
