@@ -102,8 +102,17 @@ TEST_CASE("measure: a glTF file that export has turned is told of, one that it h
     CHECK(ended.code == 0);
     return ended.err;
   };
-  CHECK_THAT(said({}), Contains("y points up in limb.glb, which is glTF") &&
-                           Contains("`sphparam export limb.obj --up y -o limb.glb`"));
+  const std::string turned = said({});
+  CHECK_THAT(turned, Contains("y points up in limb.glb, which is glTF") &&
+                         Contains("`sphparam export " + folder / "limb.obj" +
+                                  " --up y -o limb_as_it_stands.glb`"));
+  const std::string measured = bytes_of(folder / "limb.glb");
+  CHECK(type_advice(turned, folder / ".") == 1);
+  CHECK(bytes_of(folder / "limb.glb") == measured);
+  CHECK_THAT(sphparam_program({"measure", folder / "limb_as_it_stands.glb", folder / "limb.obj",
+                               "--samples", "2000"})
+                 .err,
+             !Contains("glTF"));
   CHECK_THAT(said({"--up", "y"}), !Contains("glTF"));
 }
 

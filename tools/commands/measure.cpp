@@ -8,6 +8,7 @@
 #include "commands/command.h"
 #include "commands/surfaces.h"
 #include "console/places.h"
+#include "io/shell_word.h"
 #include "number_text.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/mesh_writer.h"
@@ -102,10 +103,14 @@ void tell_turned(const MeasureArguments& arguments, const MeshFile& first, const
   const std::string a = display_name(arguments.first), b = display_name(arguments.second);
   const std::string& gltf = first_is_gltf ? a : b;
   const std::string& other = first_is_gltf ? b : a;
+  const std::string& path = first_is_gltf ? arguments.second : arguments.first;
+  const std::string typed = is_stream(path) ? "FILE" : shell_file(path);
+  // A new name: what was measured stays what it is.
+  const std::string output = (is_stream(path) ? "mesh" : stem_of(path)) + "_as_it_stands.glb";
   session.console.say("  y points up in " + gltf + ", which is glTF, and in " + other + " " +
                       (up ? name_of_direction(*up) + " does" : "nothing says what does") +
-                      ": they may be turned; `sphparam export " + other + " --up y -o " + gltf +
-                      "` writes it as it stands");
+                      ": they may be turned; `sphparam export " + typed + " --up y -o " +
+                      shell_file(output) + "` writes it as it stands");
 }
 
 /// The exit code.
