@@ -54,6 +54,19 @@ TEST_CASE(
   CHECK(told(reasons) == "NAME:3 to 5: pins_*.txt of NAME has a bad cell");
 }
 
+TEST_CASE(
+    "alike_reasons: control characters of strangers are told as spaces, not taken for marks") {
+  CHECK(told({{"a", "bad word \x01\x02\x03 of 7"}, {"b", "bad word \x02\x02\x02 of 9"}}) ==
+        "bad word     of 7 to 9");
+  CHECK(told({{"a", "cell \x02"}}) == "cell  ");
+  const Reasons apart{{"a", "cell \x02"}, {"b", "cell 5"}};
+  CHECK_FALSE(alike(apart));
+}
+
+TEST_CASE("alike_reasons: no reason at all is one as well") {
+  CHECK(told({{"a", ""}, {"b", ""}}).empty());
+}
+
 TEST_CASE("alike_reasons: an id of digits is a number like others") {
   const Reasons reasons{{"1", "1 hole: 11 edges"}, {"2", "2 holes: 5 edges"}};
   CHECK_FALSE(alike(reasons));

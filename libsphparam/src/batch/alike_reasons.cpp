@@ -1,5 +1,6 @@
 #include "batch/alike_reasons.h"
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <string_view>
@@ -22,6 +23,15 @@ bool is_of_word(char c) {
 
 bool is_number(const std::string& name) {
   return name.find_first_not_of("0123456789") == std::string::npos;
+}
+
+/// Control characters of strangers become spaces, so that none is taken for a mark.
+std::string told_text(const std::string& reason, const BatchItem& item) {
+  constexpr unsigned char first_printed = 0x20;
+  std::string text = without_folders(reason, item);
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < first_printed) c = ' ';
+  return text;
 }
 
 /// Where a name stands by itself, its mark.
@@ -70,7 +80,7 @@ double value_of(std::string_view number) {
 }  // namespace
 
 ReasonWording wording_of(const std::string& reason, const BatchItem& item) {
-  std::string text = without_folders(reason, item);
+  std::string text = told_text(reason, item);
   mark_name(text, std::filesystem::path(item.path).filename().string());
   mark_name(text, item.id);
   ReasonWording wording;
@@ -94,15 +104,16 @@ ReasonWording wording_of(const std::string& reason, const BatchItem& item) {
 
 void AlikeReasons::add(const std::string& reason, const BatchItem& item,
                        const ReasonWording& wording) {
-  const std::string text = without_folders(reason, item);
-  if (first_.empty()) {
+  const std::string text = told_text(reason, item);
+  if (!has_first_) {
+    has_first_ = true;
     first_ = text;
     kind_ = wording.kind;
     for (const std::string& number : wording.numbers) ranges_.push_back({number, number});
     return;
   }
   equal_ = equal_ && text == first_;
-  for (std::size_t i = 0; i < ranges_.size(); ++i) {
+  for (std::size_t i = 0; i < std::min(ranges_.size(), wording.numbers.size()); ++i) {
     const std::string& number = wording.numbers[i];
     if (value_of(number) < value_of(ranges_[i].least)) ranges_[i].least = number;
     if (value_of(number) > value_of(ranges_[i].greatest)) ranges_[i].greatest = number;
@@ -114,7 +125,7 @@ std::string AlikeReasons::text() const {
   std::string text;
   auto range = ranges_.begin();
   for (const char c : kind_) {
-    if (c != number_mark && c != mark_in_word) {
+    if ((c != number_mark && c != mark_in_word) || range == ranges_.end()) {
       text += c == name_mark ? "NAME" : std::string(1, c);
       continue;
     }

@@ -29,7 +29,7 @@ class AlikeReasons {
   };
 
   std::string first_, kind_;
-  bool equal_ = true;
+  bool has_first_ = false, equal_ = true;
   std::vector<Range> ranges_;
 };
 
