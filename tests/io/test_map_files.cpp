@@ -169,10 +169,14 @@ TEST_CASE("harmonic_expansion: an ellipsoid is of degree 1, and comes back") {
 TEST_CASE("harmonic_expansion: what was turned says so, and no longer that it lies as a body") {
   MeshFile file = egg().file();
   file.mesh.positions.col(1) *= 1.2;
-  const MappedMesh mapped(
-      {.file = file,
-       .map = {icosphere(2).positions},
-       .provenance = {{"method", "radial"}, {"radial-centre", "0 0 0"}, {"radial-movement", "0"}}});
+  const MappedMesh mapped({.file = file,
+                           .map = {icosphere(2).positions},
+                           .provenance = {{"method", "radial"},
+                                          {"poles", "1 2"},
+                                          {"meridian", "3"},
+                                          {"upright", "z, front -y"},
+                                          {"radial-centre", "0 0 0"},
+                                          {"radial-movement", "0"}}});
   const HarmonicExpansion as_it_was = expand_in_harmonics(mapped, {}, {.degree = 3});
   Provenance lines = mapped.provenance();
   lines.emplace_back("harmonics", "3");

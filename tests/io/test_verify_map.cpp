@@ -5,6 +5,7 @@
 
 #include "folder.h"
 #include "reading.h"
+#include "sphparam/io/map_files.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/sphere_file.h"
 #include "sphparam/io/verify_map.h"
@@ -139,6 +140,59 @@ TEST_CASE(
   map.points.col(1).maxCoeff(&east);
   CHECK_THAT(warnings_of({{"meridian", std::to_string(east)}}).at(0),
              Catch::Contains("from theta = 0"));
+}
+
+TEST_CASE("verify_map: what we say of a welded, a split or a repaired mesh is not warned of") {
+  const Folder folder;
+  SphereMap map{icosphere(2).positions};
+  const auto turn = [&](const Eigen::Quaterniond& by) {
+    map.points = (map.points * by.toRotationMatrix().transpose()).eval();
+  };
+  const Vertex north = 3;
+  turn(Eigen::Quaterniond::FromTwoVectors(map.point(north), Vector3::UnitZ()));
+  Vertex south = 0, front = 0, back = 0;
+  map.points.col(2).minCoeff(&south);
+  map.points.col(0).maxCoeff(&front);
+  const double theta = std::atan2(map.point(front).y(), map.point(front).x());
+  turn(Eigen::Quaterniond(Eigen::AngleAxisd(-theta, Vector3::UnitZ())));
+  map.points.row(north) = Vector3(-1e-7, 2e-8, 1).transpose();  // as rounding has it
+  map.points.col(0).minCoeff(&back);
+  Vertex other = 0;  // before the pole, and in no place of these
+  while (other == south || other == front || other == back) ++other;
+  REQUIRE(other < north);
+
+  std::vector<double> welded;
+  for (Vertex v = 0; v < map.points.rows(); ++v) welded.push_back(v + 1000.0);
+  std::vector<double> split = welded, repaired = welded;
+  split[other] = split[north];
+  repaired[other] = repaired[north] = -1;
+  for (const std::vector<double>& numbers : {welded, split, repaired}) {
+    MeshFile file = egg();
+    file.set_vertex_property({"source_vertex", ScalarType::Int32, numbers});
+    const auto number = [&](Vertex v) { return std::to_string(std::lround(numbers[v])); };
+    const auto said = [&](Vertex meridian) {
+      return Provenance{{"poles", number(north) + " " + number(south)},
+                        {"meridian", number(meridian)},
+                        {"verdict", "one-to-one"}};
+    };
+    const std::string mesh = write(folder, "mesh.ply", file);
+    for (const Vertex meridian : {front, north}) {  // near a pole, every longitude is near
+      CHECK(verify_map(write(folder, "m.ply", attach_map(file, map, said(meridian))))
+                .warnings.empty());
+      for (const char* name : {"s.ply", "s.gii"}) {
+        INFO(name);
+        save_sphere(folder.file(name),
+                    MappedMesh({.file = file, .map = map, .provenance = said(meridian)}));
+        CHECK(verify_map(folder.file(name)).warnings.empty());
+        CHECK(verify_map(mesh, {.sphere = folder.file(name)}).warnings.empty());
+      }
+    }
+    save_sphere(folder.file("w.ply"),
+                MappedMesh({.file = file, .map = map, .provenance = said(back)}));
+    CHECK(verify_map(folder.file("w.ply")).warnings.empty());  // nothing says which vertex it is
+    CHECK_THAT(verify_map(mesh, {.sphere = folder.file("w.ply")}).warnings.at(0),
+               Catch::Contains("from theta = 0"));
+  }
 }
 
 TEST_CASE("verify_map: a mesh and its sphere are two files of one connectivity") {

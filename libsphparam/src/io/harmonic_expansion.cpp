@@ -45,11 +45,16 @@ Points turned_positions(const MappedMesh& mapped, const HarmonicExpansion& expan
          expansion.alignment->object.transpose();
 }
 
+/// What a map no longer is once it is turned.
+bool is_of_frame(const std::string& key) {
+  return key == "poles" || key == "meridian" || key == "upright" || is_planetocentric(key);
+}
+
 Provenance lines_of(const MappedMesh& mapped, const HarmonicExpansion& expansion) {
   Provenance lines = mapped.provenance();
   lines.emplace_back("harmonics", std::to_string(expansion.degree()));
   if (expansion.aligned == HarmonicAlignment::None) return lines;
-  std::erase_if(lines, [](const auto& line) { return is_planetocentric(line.first); });
+  std::erase_if(lines, [](const auto& line) { return is_of_frame(line.first); });
   lines.emplace_back("aligned", "first-order ellipsoid");
   return lines;
 }

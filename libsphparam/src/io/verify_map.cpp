@@ -57,41 +57,61 @@ bool has_angles_only(const MeshFile& file) {
   return is_gltf(file) || !(measure_radius(file.mesh.positions).deviation <= roundness);
 }
 
+/// Of the vertices of that number, which are several where repair has split one, how far off the
+/// nearest is; nothing: there is none.
+std::optional<double> distance_of(long number, const FileNumbers& numbers, const SphereMap& map,
+                                  double (*off)(const Vector3& ray)) {
+  std::optional<double> nearest;
+  for (Vertex v = 0; v < map.points.rows(); ++v) {
+    if (numbers.number(v) != number) continue;
+    const double distance = off(map.point(v).stableNormalized());
+    if (!nearest || distance < *nearest) nearest = distance;
+  }
+  return nearest;
+}
+
 /// What a file says of a pole or of the meridian, by its number there.
 void judge_place(const std::string& what, const std::string& place, long number,
                  const FileNumbers& numbers, const SphereMap& map,
                  double (*off)(const Vector3& ray), std::vector<std::string>& warnings) {
+  if (number < 0) return;  // that of all vertices that repair has made
   const std::string said = "the header says that vertex " + std::to_string(number) + " is " + what;
-  const Vertex vertex = numbers.vertex(number);
-  if (vertex < 0) return warnings.push_back(said + ", and there is none");
-  const double angle = off(map.point(vertex).stableNormalized());
-  if (angle > angle_tolerance)
-    warnings.push_back(said + ", and it is " + short_number(angle) + " radians from " + place);
+  const std::optional<double> angle = distance_of(number, numbers, map, off);
+  if (!angle) return warnings.push_back(said + ", and there is none");
+  if (*angle > angle_tolerance)
+    warnings.push_back(said + ", and it is " + short_number(*angle) + " radians from " + place);
 }
 
 double from_north(const Vector3& ray) { return angle_between(ray, Vector3::UnitZ()); }
 double from_south(const Vector3& ray) { return angle_between(ray, -Vector3::UnitZ()); }
-double from_meridian(const Vector3& ray) { return std::abs(elementary::atan2(ray.y(), ray.x())); }
+
+/// On the sphere, to the nearest point of the half circle: near a pole every longitude is near it.
+double from_meridian(const Vector3& ray) {
+  const double beside = elementary::hypot(std::min(ray.x(), 0.0), ray.y());
+  return elementary::atan2(beside, elementary::hypot(std::max(ray.x(), 0.0), ray.z()));
+}
 
 /// What the header says of the rays, and theta and phi beside them. Poles and meridian are judged
-/// at once, while the numbers of the file are known.
-void take_claims(const MeshFile& file, Claim& claim) {
+/// at once, while the numbers are known that they are told by: those of `numbered`, if any.
+void take_claims(const MeshFile& file, const MeshFile* numbered, Claim& claim) {
   if (claim.map.place == RayPlace::Rays) claim.angles = read_angles(file);
-  const FileNumbers numbers(file);
+  std::optional<FileNumbers> numbers;
+  if (numbered) numbers.emplace(*numbered);
   bool as_printed = false;  // the poles of the paper's method are those of its date line alone
   for (const auto& [key, value] : read_provenance(file)) {
     if (key == "method") as_printed = value == name_of(Method::Paper);
     if (key == "verdict") claim.verdict = value;
+    if (!numbers) continue;
     std::istringstream words(value);
     long first = 0, second = 0;
     if (!(words >> first)) continue;  // "none"
     std::vector<std::string>& warnings = claim.map.warnings;
     if (key == "meridian")
-      judge_place("on the meridian", "theta = 0", first, numbers, claim.map.map, from_meridian,
+      judge_place("on the meridian", "theta = 0", first, *numbers, claim.map.map, from_meridian,
                   warnings);
     if (key != "poles" || as_printed || !(words >> second)) continue;
-    judge_place("the north pole", "+z", first, numbers, claim.map.map, from_north, warnings);
-    judge_place("the south pole", "-z", second, numbers, claim.map.map, from_south, warnings);
+    judge_place("the north pole", "+z", first, *numbers, claim.map.map, from_north, warnings);
+    judge_place("the south pole", "-z", second, *numbers, claim.map.map, from_south, warnings);
   }
 }
 
@@ -105,7 +125,9 @@ Claim claim_of(MeshSource source) {
   if (!map && has_angles_only(source.file) && (map = read_angles(source.file)))
     claim.place = is_gltf(source.file) ? RayPlace::AnglesAttribute : RayPlace::Angles;
   claim.map = map ? std::move(*map) : SphereMap{source.file.mesh.positions};
-  take_claims(source.file, whole);
+  // A bare sphere names vertices by the numbers of its mesh's file, which is not here.
+  const bool bare = claim.place == RayPlace::Positions;
+  take_claims(source.file, bare ? nullptr : &source.file, whole);
   claim.fillers = fillers_of(source.file);
   claim.mesh = std::move(source.file.mesh);
   claim.format = std::move(source.file.format);
@@ -122,7 +144,8 @@ Claim claim_of(MeshSource shape, const MeshSource& sphere) {
   claim.of_two_files = true;
   claim.cut_otherwise = cut_otherwise(shape.file, sphere.file);
   claim.map = map ? std::move(*map) : SphereMap{sphere.file.mesh.positions};
-  take_claims(sphere.file, whole);
+  const bool bare = claim.place == RayPlace::Positions;
+  take_claims(sphere.file, bare ? &shape.file : &sphere.file, whole);
   claim.fillers = fillers_of(shape.file);
   claim.mesh = std::move(shape.file.mesh);
   claim.format = std::move(shape.file.format);
