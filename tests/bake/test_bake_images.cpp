@@ -89,7 +89,9 @@ TEST_CASE("bake images: a heat map has its scale beside it") {
   const Folder folder;
   BakeSettings settings = small;
   settings.fields.heat = true;
-  bake(egg(3), {{"area", folder / "area.png"}}, settings);
+  const BakeReport report = bake(egg(3), {{"area", folder / "area.png"}}, settings);
+  CHECK(report.images[0].range);
+  CHECK(std::isnan(report.images[0].beyond));  // not counted
   CHECK(fs::exists(scale_path(folder / "area.png")));
   CHECK(folder.count() == 2);
 }

@@ -4,6 +4,7 @@
 #include "sphparam/bake/bake.h"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 #include "bake/baked_chart.h"
@@ -89,14 +90,16 @@ ImageTexts texts_of_all(const MappedMesh& source, const BakeSettings& settings) 
   return texts;
 }
 
+/// Of colours that stand for values (heat_field.h) `beyond` is NaN: their values are not counted.
 BakedImage told(const PlannedImage& image, double beyond) {
+  const bool stands_for_values = image.field.kind == FieldKind::Colour && image.field.range;
   return {.field = image.field.name,
           .about = image.field.about,
           .path = image.request.path,
           .sample_type = image.file.sample_type,
           .channels = image.field.channels,
           .range = range_in_file(image.field, image.file.sample_type),
-          .beyond = beyond};
+          .beyond = stands_for_values ? std::numeric_limits<double>::quiet_NaN() : beyond};
 }
 
 /// None: none are wanted, or there are none.

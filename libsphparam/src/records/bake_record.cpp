@@ -1,6 +1,7 @@
 #include "sphparam/records/bake_record.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "number_text.h"
@@ -23,7 +24,7 @@ Json images_json(const std::vector<BakedImage>& images) {
     if (!image.sidecar.empty()) one["sidecar"] = image.sidecar;
     if (image.range) {
       one["range"] = {image.range->first, image.range->second};
-      one["beyond"] = image.beyond;
+      if (!std::isnan(image.beyond)) one["beyond"] = image.beyond;
     }
     result.push_back(std::move(one));
   }
@@ -50,7 +51,7 @@ Json projection_json(const BakeRecord& record) {
 }
 
 std::string beyond_words(const BakedImage& image) {
-  if (image.beyond == 0 || !image.range) return "";
+  if (!(image.beyond > 0) || !image.range) return "";
   return "; " + percent(image.beyond) + " of the texels lie beyond " +
          short_number(image.range->first) + " to " + short_number(image.range->second) +
          ", and end there";

@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -153,9 +154,11 @@ py::list bake_to_files(const Mapped& mapped,
         return bake(mesh, requests, settings);
       });
   py::list list;
-  for (const BakedImage& image : report.images)
+  for (const BakedImage& image : report.images) {
+    const auto beyond = std::isnan(image.beyond) ? std::nullopt : std::optional(image.beyond);
     list.append(py::make_tuple(image.field, image.about, image.path, name_of(image.sample_type),
-                               image.channels, image.range, image.sidecar, image.beyond));
+                               image.channels, image.range, image.sidecar, beyond));
+  }
   list.append(report.warnings);
   return list;
 }

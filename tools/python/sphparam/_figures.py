@@ -240,8 +240,8 @@ class BakedFile(NamedTuple):
     """What 0 and 1 of integers stand for, where that is not fixed; None of files of floats."""
     sidecar: str
     """The file beside it that tells GIS programs where it lies; empty: none."""
-    beyond: float = 0
-    """The share of the texels whose values lie beyond ``range``, and end there."""
+    beyond: Optional[float] = 0
+    """The share of the texels whose values lie beyond ``range``, and end there; None where ``heat`` shows them."""
 
 
 class Displacement(NamedTuple):
