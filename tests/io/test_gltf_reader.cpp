@@ -818,11 +818,11 @@ TEST_CASE("gltf_reader: which textures show their texels unfiltered is noted") {
   gltf.add(floats({0, 0, 1, 0, 0, 1, 1, 1}), 5126, 4, "VEC2");
   gltf.meshes = R"([{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":2},"indices":1,)"
                 R"("material":0}]}])";
-  gltf.rest +=
-      R"(,"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0},)"
-      R"("metallicRoughnessTexture":{"index":1}},"normalTexture":{"index":0}}],)"
-      R"("samplers":[{"magFilter":9728},{"magFilter":9729}],)"
-      R"("textures":[{"source":0,"sampler":0},{"source":0,"sampler":1}],"images":[{"uri":"a.png"}])";
+  gltf.rest += R"(,"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0},)"
+               R"("metallicRoughnessTexture":{"index":1}},"normalTexture":{"index":0}}],)"
+               R"("samplers":[{"magFilter":9728},{"magFilter":9729}],)"
+               R"("textures":[{"source":0,"sampler":0},{"source":0,"sampler":1}],)"
+               R"("images":[{"uri":"a.png"}])";
   const MeshFile file = read(gltf.bytes());
   CHECK(file.comments.front() == "material 0: unfiltered texels of base colour, normal");
   CHECK(sphparam::is_noted_nearest(file, 0, "base colour"));
@@ -1097,6 +1097,16 @@ TEST_CASE("gltf_reader: a material by specular colour becomes one by metallic an
   CHECK(colour.made_of == file.channels[0].metallic.made_of);
   CHECK(file.channels[0].roughness.channel == 1);
   CHECK(file.channels[0].metallic.channel == 2);
+  CHECK_FALSE(sphparam::is_noted_nearest(file, 0, "roughness"));
+
+  gltf.rest = replaced(gltf.rest, R"({"source":1})", R"({"source":1,"sampler":0})") +
+              R"(,"samplers":[{"magFilter":9728}])";
+  const MeshFile nearest = read(gltf.bytes());
+  CHECK(sphparam::is_noted_nearest(nearest, 0, "roughness"));
+  CHECK(sphparam::is_noted_nearest(nearest, 0, "metallic"));
+  CHECK_FALSE(sphparam::is_noted_nearest(nearest, 0, "base colour"));
+  gltf.rest = replaced(gltf.rest, R"({"source":0})", R"({"source":0,"sampler":0})");
+  CHECK(sphparam::is_noted_nearest(read(gltf.bytes()), 0, "base colour"));
 
   const MeshFile apart =
       read_with(replaced(images, R"({"index":1})",

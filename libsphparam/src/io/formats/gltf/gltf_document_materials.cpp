@@ -252,6 +252,7 @@ class MaterialReader {
       parts.specular.image.clear();
       result_.others.emplace_back("specular textures in another place than diffuse ones");
     }
+    rename_nearest(parts);
     const std::string between = both && !parts.specular.image.empty() ? " and " : "";
     MaterialTexture made = parts.diffuse.image.empty() ? parts.specular : parts.diffuse;
     made.image = parts.diffuse.image + between + parts.specular.image;
@@ -311,6 +312,15 @@ class MaterialReader {
     texture.second = second;
     if (is_nearest(model_, info.index)) result_.nearest.push_back(what);
     find_image(model_, info.index, images_, texture);
+  }
+
+  /// Which texels are not filtered, by the names of the textures that are made.
+  void rename_nearest(const SpecularGlossiness& parts) {
+    const bool diffuse = std::erase(result_.nearest, "diffuse") > 0,
+               specular = std::erase(result_.nearest, "specular") > 0;
+    if (parts.diffuse.image.empty() ? specular : diffuse) result_.nearest.push_back("base colour");
+    if (parts.specular.image.empty() ? diffuse : specular)
+      result_.nearest.insert(result_.nearest.end(), {"roughness", "metallic"});
   }
 
   void read_emission() {
