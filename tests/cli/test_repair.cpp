@@ -389,8 +389,10 @@ TEST_CASE("repair: --component keeps the one that is asked for, with the numbers
   REQUIRE(mapped.code == 0);
   const Json report = Json::parse(bytes_of(sphere));
   CHECK(report["input"]["triangles"] == 80);
-  CHECK_THAT(report["input"]["vertex_properties"].dump(), Contains("source_vertex"));
-  CHECK_THAT(report["input"]["face_properties"].dump(), Contains("source_face"));
+  CHECK(report["input"]["vertex_properties"].empty());  // the file has no such numbers, …
+  CHECK(report["input"]["face_properties"].empty());
+  const std::string header = bytes_of(map).substr(0, 4000);  // … the map has
+  CHECK_THAT(header, Contains("source_vertex") && Contains("source_face"));
   // Vertices of the coarser one are known by their numbers in the file.
   CHECK(sphparam_program({"map", "-", "-o", "-", "--component", "2", "--poles", "162,165"}, two)
             .code == 0);

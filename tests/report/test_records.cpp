@@ -79,7 +79,7 @@ TEST_CASE("map_record: what was asked for, what came out, by the numbers of the 
   CHECK(keys_of(json) ==
         "sphparam,command,input,inspection,repairs,handles,added,components,options,account,like,"
         "stages,"
-        "made_by,poles,meridian,radial,alignment,pole_residuals,pins,lambda,"
+        "made_by,made_anew,poles,meridian,radial,alignment,pole_residuals,pins,lambda,"
         "filler_share,balance,energy_gap,energy_cost,certificate,"
         "distortion,chart,outputs,warnings,notes,seconds");
   REQUIRE(result.energy_gap);
@@ -94,6 +94,7 @@ TEST_CASE("map_record: what was asked for, what came out, by the numbers of the 
   CHECK(json["account"].is_null());
   CHECK(json["like"].is_null());
   CHECK(json["added"] == 0);
+  CHECK(json["made_anew"] == false);
   CHECK(json["stages"].size() == result.stages.size());
   REQUIRE(result.poles);
   CHECK(json["poles"]["north"] == result.poles->north + 1000);
@@ -110,16 +111,23 @@ TEST_CASE("map_record: the input is what was read, and a shape inside out is war
   TriangleMesh mesh = octahedron();
   mesh.triangles.col(1).swap(mesh.triangles.col(2));
   MeshSource source = source_of(mesh);
-  source.file.comments = {"by hand"};
+  source.file.comments = {"by hand", "source_vertices 7"};
+  source.file.set_vertex_property({"source_vertex", ScalarType::Int32, {0, 1, 2, 3, 4, 6}});
+  const std::vector<double> of_faces(8, 1);
+  for (const char* name : {"source_face", "corner_red_0", "label"})
+    source.file.set_face_property({name, ScalarType::Int32, of_faces});
   const InputNames names = input_names(source.file);
   source.file = attach_map(std::move(source.file), {mesh.positions}, {{"method", "none"}});
   const ParameterizeOptions options;
   Parameterization result;
   result.warnings = {"another"};
+  result.made_anew = true;
   const MapRecord record{.source = source, .options = options, .result = result, .input = names};
   const Json json = Json::parse(to_json(record));
   CHECK(json["input"]["vertex_properties"].empty());
+  CHECK(json["input"]["face_properties"] == Json({"label"}));
   CHECK(json["input"]["comments"] == Json({"by hand"}));
+  CHECK(json["made_anew"] == true);
   REQUIRE(json["warnings"].size() == 2);
   CHECK_THAT(json["warnings"][0].get<std::string>(), StartsWith("inside out"));
   CHECK(json["warnings"][1] == "another");

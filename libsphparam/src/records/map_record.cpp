@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "io/attributes/corner_colours.h"
 #include "records/json_parts.h"
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/names.h"
@@ -138,9 +139,18 @@ Json account_json(const std::optional<BaselineAccount>& account) {
           {"statement", account->statement}};
 }
 
+/// What reading, welding and repair note in a mesh.
+bool is_noted(const std::string& property) {
+  return property == "source_vertex" || property == "source_face" || is_corner_colour(property);
+}
+
 Json input_json(const MapRecord& record) {
   Json json = input_json(record.source);
   if (!record.input) return json;
+  Json of_faces = Json::array();
+  for (const Property& property : record.source.file.face_properties)
+    if (!is_noted(property.name)) of_faces.push_back(property.name);
+  json["face_properties"] = std::move(of_faces);
   json["vertex_properties"] = record.input->vertex_properties;
   json["comments"] = record.input->comments;
   return json;
@@ -156,9 +166,11 @@ std::vector<std::string> warnings_of(const MapRecord& record) {
 }  // namespace
 
 InputNames input_names(const MeshFile& file) {
-  InputNames names{.comments = file.comments};
+  InputNames names;
   for (const Property& property : file.vertex_properties)
-    names.vertex_properties.push_back(property.name);
+    if (!is_noted(property.name)) names.vertex_properties.push_back(property.name);
+  for (const std::string& comment : file.comments)
+    if (!says_vertices_of_file(comment)) names.comments.push_back(comment);
   return names;
 }
 
@@ -185,6 +197,7 @@ std::string to_json(const MapRecord& record) {
                {"like", likeness_json(record)},
                {"stages", stages_json(record.result.stages)},
                {"made_by", record.result.made_by},
+               {"made_anew", record.result.made_anew},
                {"poles", poles_json(record.result.poles, numbers)},
                {"meridian", vertex_json(record.result.meridian, numbers)},
                {"radial", radial_json(record.result.radial)},
