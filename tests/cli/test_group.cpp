@@ -63,6 +63,23 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 long columns(const std::string& line) { return 1 + std::ranges::count(line, '\t'); }
 
+/// The RMS distance of a surface from its centroid: of |x|² a triangle of area A has the integral
+/// A/12 (|a|² + |b|² + |c|² + |a + b + c|²).
+double size_of(const TriangleMesh& mesh) {
+  double area = 0, squares = 0;
+  Vector3 first = Vector3::Zero();
+  for (Face f = 0; f < mesh.face_count(); ++f) {
+    const auto corner = [&](int k) -> Vector3 { return mesh.position(mesh.triangles(f, k)); };
+    const Vector3 a = corner(0), b = corner(1), c = corner(2), sum = a + b + c;
+    const double of_face = (b - a).cross(c - a).norm() / 2;
+    area += of_face;
+    first += of_face / 3 * sum;
+    squares +=
+        of_face / 12 * (a.squaredNorm() + b.squaredNorm() + c.squaredNorm() + sum.squaredNorm());
+  }
+  return std::sqrt(squares / area - (first / area).squaredNorm());
+}
+
 }  // namespace
 
 TEST_CASE("group: everything is written, every map proved, and the length is the first mode") {
@@ -127,23 +144,6 @@ TEST_CASE("group: tables have a row a shape, a vertex, a landmark, and a header"
   row >> found.x() >> found.y() >> found.z();
   CHECK((found - last.position(0)).norm() < 0.8);  // of a length of 6.8
   CHECK_THAT(bytes_of(eggs.in_out("index.html")), !Contains("image/png"));
-}
-
-/// The RMS distance of a surface from its centroid: of |x|² a triangle of area A has the integral
-/// A/12 (|a|² + |b|² + |c|² + |a + b + c|²).
-double size_of(const TriangleMesh& mesh) {
-  double area = 0, squares = 0;
-  Vector3 first = Vector3::Zero();
-  for (Face f = 0; f < mesh.face_count(); ++f) {
-    const auto corner = [&](int k) -> Vector3 { return mesh.position(mesh.triangles(f, k)); };
-    const Vector3 a = corner(0), b = corner(1), c = corner(2), sum = a + b + c;
-    const double of_face = (b - a).cross(c - a).norm() / 2;
-    area += of_face;
-    first += of_face / 3 * sum;
-    squares +=
-        of_face / 12 * (a.squaredNorm() + b.squaredNorm() + c.squaredNorm() + sum.squaredNorm());
-  }
-  return std::sqrt(squares / area - (first / area).squaredNorm());
 }
 
 TEST_CASE(
