@@ -147,6 +147,27 @@ TEST_CASE("export: levels end where none is coarser, which is told, and none is 
   CHECK(Json::parse(bytes_of(report))["lods"] == 1);
 }
 
+TEST_CASE("export: levels of a mesh without area are written, how far they are is left out") {
+  const Egg egg;
+  TriangleMesh needle = icosphere(2);
+  needle.positions.leftCols(2).setZero();
+  const std::string mesh = egg.folder / "needle.obj", report = egg.folder / "r.json";
+  write_bytes(mesh, obj_text(needle));
+  write_bytes(egg.folder / "ball.obj", obj_text(icosphere(2)));
+  const Ended ended = sphparam_program({"export", mesh, "--sphere", egg.folder / "ball.obj", "-o",
+                                        egg.folder / "n.glb", "--image-size", "64", "--lods", "1",
+                                        "--json", report});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.err, Contains("--lods: how far 1 coarser mesh is from the mesh cannot be told"));
+  CHECK_THAT(ended.out + ended.err, !Contains("level 1, "));
+  const Json levels = Json::parse(bytes_of(report))["levels"];
+  REQUIRE(levels.size() == 2);
+  CHECK_FALSE(levels[1].contains("rms"));
+  const Json extras = json_of(bytes_of(egg.folder / "n_lod1.glb"))["asset"]["extras"]["sphparam"];
+  CHECK_FALSE(extras.contains("level_1_rms"));
+}
+
 TEST_CASE("export: with a kept topology and poles at vertices torn edges are listed") {
   const Egg egg;
   const std::string report = egg.folder / "r.json";

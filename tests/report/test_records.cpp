@@ -403,7 +403,7 @@ TEST_CASE("export_record: what is proved of each level, and the files") {
   ChartFigures coarse;
   coarse.triangles = 320;
   record.charts.push_back(coarse);
-  record.distances = {{.rms = 0.5, .max = 2}};
+  record.distances.push_back(LevelOfDetail::Distance{.rms = 0.5, .max = 2});
   record.diagonal = 100;
   json = Json::parse(to_json(record));
   CHECK_FALSE(json["levels"][0].contains("rms"));
@@ -412,6 +412,9 @@ TEST_CASE("export_record: what is proved of each level, and the files") {
   CHECK(level_lines(record) ==
         std::vector<std::string>{
             "level 1, 320 triangles: RMS 0.5 %, at most 2 % of the diagonal, both ways"});
+  record.distances[0].reset();
+  CHECK_FALSE(Json::parse(to_json(record))["levels"][1].contains("rms"));
+  CHECK(level_lines(record).empty());
 }
 
 TEST_CASE("remesh_record: the finest level, and the others where there are several") {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -155,15 +156,28 @@ class Exporter {
 
   void measure(const MappedMesh& mapped, const std::vector<MappedMesh>& coarser) {
     record_.diagonal = diagonal_of(mapped.mesh().positions);
-    for (const MappedMesh& mesh : coarser)
-      record_.distances.push_back(
-          distance_of_level(mapped, mesh, options_.threads, options_.progress));
+    for (const MappedMesh& mesh : coarser) record_.distances.push_back(distance_of(mapped, mesh));
+    const auto unknown = std::ranges::count_if(
+        record_.distances, [](const auto& distance) { return !distance.has_value(); });
+    if (unknown == 0) return;
+    session_.console.warning("--lods: how far " +
+                             counted(unknown, "coarser mesh is", "coarser meshes are") +
+                             " from the mesh cannot be told: there is no area to measure");
+  }
+
+  /// None where no distance means anything.
+  std::optional<LevelOfDetail::Distance> distance_of(const MappedMesh& mapped,
+                                                     const MappedMesh& coarser) const try {
+    return distance_of_level(mapped, coarser, options_.threads, options_.progress);
+  } catch (const UnmeasurableMesh&) {
+    return std::nullopt;
   }
 
   /// Into the extras, by the names that `remesh` has.
   void add_error(Asset& asset, std::size_t level) const {
     const std::string name = "level_" + std::to_string(level);
-    const auto& [rms, max] = record_.distances.at(level - 1);
+    if (!record_.distances.at(level - 1)) return;
+    const auto& [rms, max] = *record_.distances.at(level - 1);
     asset.extras.emplace_back(name + "_rms", short_number(rms, 6));
     asset.extras.emplace_back(name + "_max", short_number(max, 6));
   }

@@ -21,9 +21,9 @@ std::string to_json(const ExportRecord& record) {
                       {"torn_as_stored", chart.stored.torn},
                       {"around_pole", chart.chart.around_pole}});
     const std::size_t level = levels.size() - 1;
-    if (level > 0 && level <= record.distances.size()) {
-      levels.back()["rms"] = record.distances[level - 1].rms;
-      levels.back()["max"] = record.distances[level - 1].max;
+    if (level > 0 && level <= record.distances.size() && record.distances[level - 1]) {
+      levels.back()["rms"] = record.distances[level - 1]->rms;
+      levels.back()["max"] = record.distances[level - 1]->max;
     }
     if (chart.sphere_folds >= 0) levels.back()["sphere_folds_as_stored"] = chart.sphere_folds;
   }
@@ -43,7 +43,8 @@ std::string to_json(const ExportRecord& record) {
 std::vector<std::string> level_lines(const ExportRecord& record) {
   std::vector<std::string> lines;
   for (std::size_t i = 0; i < record.distances.size(); ++i) {
-    const auto& [rms, max] = record.distances[i];
+    if (!record.distances[i]) continue;
+    const auto& [rms, max] = *record.distances[i];
     lines.push_back("level " + std::to_string(i + 1) + ", " +
                     counted(record.charts.at(i + 1).triangles, "triangle") + ": " +
                     error_words(rms, max, record.diagonal) + ", both ways");

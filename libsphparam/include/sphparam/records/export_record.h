@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,10 +11,11 @@ namespace sphparam {
 
 /// What was exported.
 struct ExportRecord {
-  std::string input = {};                               // the file of the mesh
-  std::vector<ChartFigures> charts = {};                // of the levels, finest first
-  int lods_wanted = 0, lods = 0;                        // coarser levels, asked for and there
-  std::vector<LevelOfDetail::Distance> distances = {};  // of the coarser levels, from the mesh
+  std::string input = {};                 // the file of the mesh
+  std::vector<ChartFigures> charts = {};  // of the levels, finest first
+  int lods_wanted = 0, lods = 0;          // coarser levels, asked for and there
+  /// Of the coarser levels, from the mesh; none of those that it cannot be told of.
+  std::vector<std::optional<LevelOfDetail::Distance>> distances = {};
   double diagonal = 0;  // of the mesh: what distances are told against
   WrittenFiles outputs = {};
   std::vector<TextureFigures> textures = {};  // of what is seen, and of the variants
