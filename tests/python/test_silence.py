@@ -417,3 +417,23 @@ def test_a_mesh_without_area_has_no_shape():
     with pytest.raises(ValueError, match="no area"):
         sp.map(V * 0, F, repair=True)
     assert sp.map(V * 1e-150, F).certificate.one_to_one
+
+
+def test_what_a_file_says_falsely_of_its_map_is_told(tmp_path):
+    path = tmp_path / "a.sph.ply"
+    sp.map(V, F).save(path)
+    right = path.read_bytes()
+    proof, messages = told(lambda: sp.verify(path))
+    assert proof.one_to_one and messages == []
+    path.write_bytes(right.replace(b"verdict one-to-one", b"verdict folded \xff"))
+    proof, messages = told(lambda: sp.verify(path))
+    assert proof.one_to_one and len(messages) == 1 and "it is one-to-one" in messages[0]
+    swapped = right.replace(b"double theta", b"double other").replace(b"double phi", b"double theta")
+    path.write_bytes(swapped.replace(b"double other", b"double phi"))
+    proof, messages = told(lambda: sp.verify(path))
+    assert not proof.one_to_one and proof.verdict.startswith("theta and phi off ") and len(proof.folded) == 0
+    assert len(messages) == 1 and "are not those of sx sy sz" in messages[0]
+    vertices, faces = octahedron()
+    sp.write(tmp_path / "beside.off", vertices + (0.2, 0, 0), faces)
+    proof, messages = told(lambda: sp.verify(tmp_path / "beside.off"))
+    assert proof.one_to_one and len(messages) == 1 and "not on a sphere about the origin" in messages[0]

@@ -20,6 +20,7 @@
 #include "sphparam/io/verify_map.h"
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/names.h"
+#include "sphparam/records/verification_record.h"
 #include "sphparam/stopwatch.h"
 
 namespace sphparam::python {
@@ -197,12 +198,29 @@ py::dict certify_points(const Source& source, const py::array& rays, int threads
       call(py::none(), [=](const Progress&) { return certify_either_way(*mesh, *map, threads); }));
 }
 
+/// Headers of files may be in any encoding.
+py::list as_list(const std::vector<std::string>& lines) {
+  py::list list;
+  for (const std::string& line : lines) {
+    PyObject* const text =
+        PyUnicode_DecodeUTF8(line.data(), static_cast<Py_ssize_t>(line.size()), "replace");
+    if (!text) throw py::error_already_set();
+    list.append(py::reinterpret_steal<py::object>(text));
+  }
+  return list;
+}
+
+/// Who reads theta and phi that are not those of the rays has another map: it does not hold then.
 py::dict verify_file(const std::string& path, const std::string& sphere, int threads) {
   const VerifiedMap found = call(py::none(), [=](const Progress&) {
     return verify_map(path, {.sphere = sphere, .threads = threads});
   });
   py::dict dict = as_dict(found.certificate);
-  dict["is_round"] = found.is_round();
+  if (found.certificate.bijective() && !found.holds()) {
+    dict["one_to_one"] = false;
+    dict["verdict"] = "theta and phi off " + std::to_string(found.angles->off);
+  }
+  dict["warnings"] = as_list(warnings_of(found));
   return dict;
 }
 

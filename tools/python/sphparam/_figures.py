@@ -20,7 +20,8 @@ class Certificate(NamedTuple):
     one_to_one: bool
     """The one question: does every point of the sphere have exactly one point of the surface?"""
     verdict: str
-    """``"one-to-one"``, ``"folded 3"``, ``"degree 2"``, ``"unusable points 1"``."""
+    """``"one-to-one"``, ``"folded 3"``, ``"degree 2"``, ``"unusable points 1"``; of a file also ``"theta and phi
+    off 2"``: of two vertices they are not those of sx sy sz."""
     degree: int
     """Triangles that a generic ray meets; counted when nothing is folded."""
     covering: float

@@ -184,12 +184,16 @@ def verify(mesh: Any, faces: Any = None, points: Any = None, *, threads: int = 0
     ``verify(vertices, faces, points)``, ``verify(mesh, points=points)``, a :class:`SphereMap`, or a
     file: a written map, a bare sphere, or with ``points=FILE`` a mesh and its sphere. A sphere seen from
     inside is one-to-one too, and ``reversed``; :func:`load` and :func:`with_sphere` want it from outside.
+
+    Of a file, ``theta`` and ``phi`` that are not those of ``sx sy sz`` make another map of it: it is not
+    ``one_to_one`` then. Poles, meridian and verdict of its header that are not so, and points on no
+    sphere about the origin, are told as :class:`LossWarning`.
     """
     count = _arrays.threads(threads)
     if isinstance(mesh, (str, os.PathLike)):
         sphere = existing(points) if points is not None else ""
         found = _core.verify_file(existing(mesh), sphere, count)
-        found.pop("is_round")
+        tell(found.pop("warnings"))
         return Certificate(**found)
     if points is None and isinstance(mesh, SphereMap):
         points = mesh.points
