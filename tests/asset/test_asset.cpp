@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
@@ -292,6 +293,31 @@ TEST_CASE("remake asset: images without texture coordinates are told, factors ar
   const Image colour = read_image(folder.path.string() + "/ball_basecolor.png");
   CHECK(colour.pixel(5, 9)[0] == 0);
   CHECK(colour.pixel(5, 9)[2] == 1);
+}
+
+TEST_CASE("remake asset: an image on second texture coordinates is carried, not on missing ones") {
+  const Folder folder;
+  MeshSource asset = painted(source_of(icosphere(3), "ball.obj"));
+  asset.file.second_texcoords = CornerTexcoords::Constant(3 * asset.file.mesh.face_count(), 2, 0.5);
+  const auto black =
+      std::make_shared<const std::vector<char>>(encode_image(Image(8, 8, 3), ImageFormat::Png));
+  MaterialChannels& said = asset.file.channels[0];
+  for (MaterialTexture* texture : {&asset.file.base_colours[0], &said.roughness, &said.metallic}) {
+    texture->image = "skin.png";
+    texture->bytes = black;
+  }
+  said.roughness.second = true;
+  RemakeOptions options{.whole = coarse(), .width = 64};
+  options.page = false;
+  PendingFiles files;
+  const RemadeAsset made = remake_asset(asset, folder.path.string(), options, files);
+  CHECK(std::ranges::count(made.warnings,
+                           "not carried: skin.png of material paint: the mesh has "
+                           "no texture coordinates") == 1);
+  files.publish();
+  const Image orm = read_image(folder.path.string() + "/ball_orm.png");
+  CHECK(orm.pixel(5, 9)[1] == 0);  // of the image
+  CHECK(orm.pixel(5, 9)[2] == 1);  // of the factor
 }
 
 TEST_CASE("whole surface: a sheet, whose two sides would lie in one another, is wrapped") {

@@ -189,10 +189,13 @@ std::vector<std::string> drop_unusable_images(MeshFile& file) {
   const auto placeless = [&](const MaterialTexture& texture) {
     return !has_places && !texture.second && !texture.image.empty();
   };
-  const auto check = [&](MaterialTexture& texture, size_t material) {
+  const auto cached = [&](const MaterialTexture& texture) {
     const auto [found, is_new] = known.try_emplace(texture.image);
-    if (is_new) found->second = placeless(texture) ? no_texcoords : why_unusable(texture);
-    const std::string& why = found->second;
+    if (is_new) found->second = why_unusable(texture);
+    return found->second;
+  };
+  const auto check = [&](MaterialTexture& texture, size_t material) {
+    const std::string why = placeless(texture) ? no_texcoords : cached(texture);
     if (why.empty()) return;
     told.push_back("not carried: " + texture.image + " of material " + file.materials[material] +
                    ": " + why);

@@ -49,7 +49,8 @@ void require_channels(const BakeScene& scene, const std::string& field) {
 
 void require_texcoords(const BakeScene& scene, const std::string& field,
                        const std::vector<SourceTexture>& textures) {
-  const bool any = std::ranges::any_of(textures, [](const auto& t) { return t.image != nullptr; });
+  const auto is_placed_by_them = [](const auto& t) { return t.image != nullptr && !t.second; };
+  const bool any = std::ranges::any_of(textures, is_placed_by_them);
   if (any && !has_texcoords(scene.source.file()))
     throw FieldError(field + ": the mesh has no texture coordinates, so its texture has no place" +
                      leaves_images_out);
