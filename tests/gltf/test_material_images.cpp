@@ -129,6 +129,18 @@ TEST_CASE("asset images: a JPEG of CMYK becomes PNG and is told, one that is cut
   write(place / "cut.jpg", jpeg.substr(0, jpeg.size() - 2));
   CHECK_THROWS_WITH(read_asset_image(place / "cut.jpg", "basecolor", warnings),
                     Contains("cut.jpg: is cut off"));
+  const std::size_t second =
+      4 + 256 * static_cast<unsigned char>(jpeg[4]) + static_cast<unsigned char>(jpeg[5]);
+  const std::string stray = jpeg.substr(0, second) + "ab" + jpeg.substr(second);
+  CHECK_FALSE(jpeg_head(stray).found);
+  write(place / "stray.jpg", stray);
+  const GivenImage given = read_asset_image(place / "stray.jpg", "basecolor", warnings);
+  CHECK(image_kind(given.asset.bytes).name() == "png"sv);
+  CHECK(warnings ==
+        Words{"stray.jpg: becomes PNG, for stray bytes lie between the segments of this JPEG"});
+  write(place / "cut_stray.jpg", stray.substr(0, stray.size() - 2));
+  CHECK_THROWS_WITH(read_asset_image(place / "cut_stray.jpg", "basecolor", warnings),
+                    Contains("cut_stray.jpg: is cut off"));
   write_image(place / "a.exr", Image(4, 2, 3), {.sample_type = SampleType::Float});
   CHECK_THROWS_WITH(read_asset_image(place / "a.exr", "basecolor", warnings),
                     Contains("glTF has no EXR: save it as .png"));

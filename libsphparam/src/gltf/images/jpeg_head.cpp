@@ -32,12 +32,15 @@ JpegHead jpeg_head(std::string_view bytes) {
       return {.process = marker - first_frame,
               .bits = at(i + bits_at),
               .channels = at(i + channels_at),
+              .found = true,
               .is_whole = bytes.find("\xFF\xD9", i) != std::string_view::npos};
     } else {
       i += marker_bytes + at(i + 2) * std::size_t{256} + at(i + 3);
     }
   }
-  return {};
+  const std::size_t scan = bytes.rfind("\xFF\xDA");  // of a thumbnail no other one follows
+  return {.is_whole = scan != std::string_view::npos &&
+                      bytes.find("\xFF\xD9", scan) != std::string_view::npos};
 }
 
 }  // namespace sphparam

@@ -8,6 +8,7 @@ namespace sphparam {
 struct JpegHead {
   int process = 0;  // 0: baseline, 2: progressive, 9: arithmetic coding, …: n of the marker SOFn
   int bits = 0, channels = 0;
+  bool found = false;     // the head is there; it is not where segments do not follow one another
   bool is_whole = false;  // its end is there
 
   /// What all decoders have, and glTF and the JFIF take: 8 bits, Huffman coding, grey or colours.

@@ -53,6 +53,11 @@ bool stays(std::string_view bytes, const std::string& path, std::vector<std::str
   if (!head.is_whole)
     throw ImageError(path +
                      ": is cut off, the end of the JPEG is not there: copy or save it again");
+  if (!head.found) {  // but libjpeg has read it: it passes stray bytes between segments
+    warnings.push_back(display_name(path) +
+                       ": becomes PNG, for stray bytes lie between the segments of this JPEG");
+    return false;
+  }
   if (head.is_common()) return true;
   const bool is_coding = head.channels == 1 || head.channels == 3;
   warnings.push_back(display_name(path) + ": becomes PNG, for glTF has no JPEG of " +
