@@ -122,7 +122,8 @@ void tell(const RemadeAsset& made, const std::string& folder, TextureFormat text
       counted(static_cast<long>(made.baked.images.size()), "image") + " baked, " +
       short_number(session.stopwatch.seconds()) + " s → " + fs::path(folder).append("").string());
   session.console.say("  " + made.sizes);
-  if (textures != TextureFormat::Given) session.console.say("  in the .glb: " + words_of(made.textures));
+  if (textures != TextureFormat::Given)
+    session.console.say("  in the .glb: " + words_of(made.textures));
 }
 
 /// Before any work. A folder is no file that could be replaced.

@@ -73,9 +73,11 @@ std::vector<ProcrustesMotion> placed(const std::vector<Points>& shapes, const Ve
     for (size_t i = 0; i < shapes.size(); ++i)
       sizes[static_cast<Eigen::Index>(i)] = size_of(centred(shapes[i], motions[i].centre), weights);
   }
+  if (shapes.empty()) return motions;
+  const double mean = sizes.mean();
   for (size_t i = 0; i < shapes.size(); ++i)
     if (const double size = sizes[static_cast<Eigen::Index>(i)]; size > 0)
-      motions[i].scale = sizes.mean() / size;
+      motions[i].scale = mean / size;
   return motions;
 }
 
