@@ -1047,7 +1047,8 @@ TEST_CASE("gltf_reader: what a file says beside shape and materials is told, a l
       R"("cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":0.1}}],)"
       R"("animations":[{},{}],"extensions":{"KHR_lights_punctual":{"lights":[{"type":"point"}]}},)"
       R"("materials":[{"name":"plain","pbrMetallicRoughness":{"metallicFactor":1}},)"
-      R"({"name":"glow","emissiveFactor":[0,1,0],"doubleSided":true,"extensions":{"KHR_materials_anisotropy":{},)"
+      R"({"name":"glow","emissiveFactor":[0,1,0],"doubleSided":true,)"
+      R"("extensions":{"KHR_materials_anisotropy":{},)"
       R"("KHR_materials_emissive_strength":{}}}])";
   const std::vector<std::string> losses = sphparam::losses_among(read(gltf.bytes()).notes);
   CHECK(losses ==
