@@ -295,7 +295,7 @@ TEST_CASE("bake: what is advised for --for can be typed, of a mesh without a map
     };
     const Ended bare = bake(target);
     INFO(bare.err);
-    REQUIRE(bare.code == 5);
+    REQUIRE(bare.code == 2);
     CHECK_THAT(bare.err, Contains("low.obj: carries no map"));
     if (hurt) CHECK_THAT(bare.err, Contains("egg.obj' --repair=holes --max-hole 7 -o"));
     CHECK(type_advice(bare.err, folder / ".") == 3);
