@@ -349,7 +349,7 @@ TEST_CASE("map: what poles, meridian, pins and balance may not say together ends
       {"--balance", "conformal", "--lambda", "2"},
       {"--balance", "2", "--lambda", "2"},
       {"--balance", "0"},
-      {"--balance", "1e4"},
+      {"--balance", "1e7"},
       {"--balance", "2x"},
   };
   for (const auto& options : senseless) {
