@@ -191,6 +191,25 @@ TEST_CASE(
   for (const std::string& warning : map.warnings) CHECK(warning.starts_with("poles raise"));
 }
 
+TEST_CASE("parameterize: poles that would keep areas from being equal are left out, and told") {
+  TriangleMesh mesh;
+  mesh.positions.resize(9, 3);
+  mesh.positions << 16.41, 18.57, 1.19, -0.08, -12.29, -2.47, -20.03, 4.74, -1.65, -22.55, 12.45,
+      0.62, -1.84, -21.43, -1.85, 22.21, 14.61, -0.22, -18.62, 11.11, 1.57, 21.73, 13.26, -0.78,
+      -0.84, 18.33, -2.12;
+  mesh.triangles.resize(14, 3);
+  mesh.triangles << 3, 4, 6, 3, 8, 2, 2, 8, 1, 2, 4, 3, 2, 1, 4, 7, 8, 5, 1, 8, 7, 5, 4, 7, 4, 1, 7,
+      0, 4, 5, 0, 6, 4, 5, 8, 0, 0, 8, 3, 3, 6, 0;
+  const Parameterization map = parameterize(mesh, {.balance = Balance::EqualArea});
+  CHECK(map.certificate.bijective());
+  CHECK_FALSE(map.poles);
+  REQUIRE(map.balance);
+  CHECK(map.balance->area_error <= 0.1);
+  CHECK(summarise(measure_distortion(mesh, map.map)).weighted_abs_log2_area <= 0.1);
+  REQUIRE(map.warnings.size() == 1);
+  CHECK(map.warnings[0] == "poles would keep areas from being equal: the map has no poles");
+}
+
 TEST_CASE("parameterize: where areas are made even and fillers pressed, poles cost one energy") {
   const TriangleMesh mesh = box({1, 1, .1});
   FillerMarks fillers(12, 0);

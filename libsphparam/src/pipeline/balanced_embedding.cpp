@@ -142,11 +142,14 @@ bool press_fillers_again(MapInProgress& work, SphereMap& map, const std::vector<
   return true;
 }
 
+double area_error_of(MapInProgress& work, const SphereMap& map) {
+  return area_error(work.topology, work.source(), image_of(map), work.options.threads);
+}
+
 bool balance_again(MapInProgress& work, SphereMap& map, const std::vector<Pin>& pins) {
   std::optional<BalanceRecord>& balance = work.result.balance;
   if (!balance || work.options.balance != Balance::EqualArea) return false;
-  const double error =
-      area_error(work.topology, work.source(), image_of(map), work.options.threads);
+  const double error = area_error_of(work, map);
   if (error <= std::max(balance->area_error, BalanceOptions{}.area_error)) return false;
   BalancedMap again = balanced(work, map, balance->lambda, pins);
   if (!(again.area_error < error)) return false;

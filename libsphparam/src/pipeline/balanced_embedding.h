@@ -21,6 +21,9 @@ bool press_fillers_again(MapInProgress& work, SphereMap& map, const std::vector<
 /// none to bring them to, or nothing to gain, and the map stays.
 bool balance_again(MapInProgress& work, SphereMap& map, const std::vector<Pin>& pins);
 
+/// Mean |log2 area ratio|, fillers included.
+double area_error_of(MapInProgress& work, const SphereMap& map);
+
 /// Warns where the map is not what the balance asked for promises, with the figure it reached:
 /// `work.result.balance` gets that of the finished map.
 void warn_of_balance(MapInProgress& work);

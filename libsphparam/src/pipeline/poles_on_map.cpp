@@ -95,6 +95,14 @@ void balance_and_press_again(MapInProgress& work, PolePlacement& placement) {
   }
 }
 
+/// Equal areas were promised, poles are chosen where they do no harm.
+bool break_promise(MapInProgress& work, const MapInProgress::BalanceState& before,
+                   const SphereMap& map) {
+  const double most = BalanceOptions{}.area_error;
+  return work.options.balance == Balance::EqualArea && work.options.fillers.empty() &&
+         before.record && before.record->area_error <= most && area_error_of(work, map) > most;
+}
+
 }  // namespace
 
 void move_to_poles(MapInProgress& work, Poles poles) {
@@ -115,6 +123,10 @@ void choose_poles_on_map(MapInProgress& work) {
   settle(work, *placement);
   MapInProgress::BalanceState before = work.balance_state();
   balance_and_press_again(work, *placement);
+  if (break_promise(work, before, placement->map)) {
+    work.restore(std::move(before));
+    return go_without_poles(work, "poles would keep areas from being equal");
+  }
   const Vertex meridian =
       work.options.meridian ? *work.options.meridian : quiet_meridian(work, placement->map);
   if (!turn(work, placement->map, meridian) &&
