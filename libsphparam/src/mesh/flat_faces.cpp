@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "mesh/box.h"
 #include "mesh/flat_face.h"
 #include "mesh/paired_faces.h"
 #include "mesh/repair_state.h"
@@ -120,16 +119,15 @@ void mend_flat_faces(RepairState& state) {
   FlatFaceMender(state, std::move(twin)).run();
 }
 
-// In the unit box, so that squares neither overflow nor vanish; the first triangle ends it usually.
+// Each triangle at its own unit size, so that squares neither overflow nor vanish, and one vertex
+// far away does not make points of all others; the first triangle ends it usually.
 bool has_area(const TriangleMesh& mesh) {
-  const Box box = box_of(mesh.positions);
-  const Vector3 centre = box.lower / 2 + box.upper / 2;
-  const double extent = (box.upper / 2 - box.lower / 2).maxCoeff();
-  if (!(extent > 0)) return false;
-  const auto place = [&](Vertex v) -> Vector3 { return (mesh.position(v) - centre) / extent; };
   for (Face f = 0; f < static_cast<Face>(mesh.face_count()); ++f) {
-    const Triangles& faces = mesh.triangles;
-    if (!is_flat(place(faces(f, 0)), place(faces(f, 1)), place(faces(f, 2)))) return true;
+    const Vector3 origin = mesh.position(mesh.triangles(f, 0)) / 2;
+    const Vector3 b = mesh.position(mesh.triangles(f, 1)) / 2 - origin;
+    const Vector3 c = mesh.position(mesh.triangles(f, 2)) / 2 - origin;
+    const double size = std::max(b.cwiseAbs().maxCoeff(), c.cwiseAbs().maxCoeff());
+    if (size > 0 && !is_flat(Vector3::Zero(), b / size, c / size)) return true;
   }
   return false;
 }
