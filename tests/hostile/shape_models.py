@@ -137,7 +137,7 @@ def make_icq():
     bad("nul", changed(t, "1.0 -1.0 1.0", "1.0 -1.0 \0"), "NUL byte")
     case("icq_seam_open.icq", changed(t, "1.0 -1.0 1.0\n", "1.5 -1.5 1.5\n"), NO_SPHERE, "boundary")
     case("icq_faces_in_another_order.icq", icq(points=icq_points(2)[9:] + icq_points(2)[:9]), OK)
-    case("icq_all_in_one_point.icq", icq(points=[(1, 2, 3)] * 54), OK)
+    case("icq_all_in_one_point.icq", icq(points=[(1, 2, 3)] * 54), NO_SPHERE, "no area")
 
 
 # --- v/f tables --------------------------------------------------------------------------------
