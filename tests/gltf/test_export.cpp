@@ -12,6 +12,7 @@
 #include "sphparam/gltf/export.h"
 #include "sphparam/io/mesh_reader.h"
 #include "support/glb_json.h"
+#include "support/place.h"
 #include "support/test_meshes.h"
 
 /// What a program gets that links the library: mapped meshes in, files out.
@@ -28,26 +29,6 @@ MappedMesh mapped_egg(int level) {
   file.mesh.positions.col(2) *= 1.3;
   return MappedMesh({.file = std::move(file), .map = std::move(map), .name = "egg.obj"});
 }
-
-struct Place {
-  std::filesystem::path folder =
-      std::filesystem::temp_directory_path() /
-      ("sphparam_export_" + std::to_string(reinterpret_cast<std::uintptr_t>(this)));
-
-  Place() { std::filesystem::create_directories(folder); }
-  ~Place() { std::filesystem::remove_all(folder); }
-  Place(const Place&) = delete;
-  Place& operator=(const Place&) = delete;
-
-  std::string operator/(const std::string& name) const { return (folder / name).string(); }
-  Names names() const {
-    Names names;
-    for (const auto& entry : std::filesystem::directory_iterator(folder))
-      names.push_back(entry.path().filename().string());
-    std::sort(names.begin(), names.end());
-    return names;
-  }
-};
 
 std::string bytes_of(const std::string& path) {
   std::ifstream in(path, std::ios::binary);

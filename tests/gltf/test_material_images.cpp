@@ -10,6 +10,7 @@
 #include "io/files/base64.h"
 #include "sphparam/bake/bake.h"
 #include "sphparam/gltf/export.h"
+#include "support/place.h"
 #include "support/test_meshes.h"
 
 /// Images that are given to an export.
@@ -21,19 +22,6 @@ using Catch::Contains;
 using Words = std::vector<std::string>;
 using namespace std::string_literals;
 using namespace std::string_view_literals;
-
-struct Place {
-  std::filesystem::path folder =
-      std::filesystem::temp_directory_path() /
-      ("sphparam_images_" + std::to_string(reinterpret_cast<std::uintptr_t>(this)));
-
-  Place() { std::filesystem::create_directories(folder); }
-  ~Place() { std::filesystem::remove_all(folder); }
-  Place(const Place&) = delete;
-  Place& operator=(const Place&) = delete;
-
-  std::string operator/(const std::string& name) const { return (folder / name).string(); }
-};
 
 void write(const std::string& path, std::string_view bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
