@@ -4,6 +4,7 @@
 
 #include "reading.h"
 #include "sphparam/io/components.h"
+#include "sphparam/io/mesh_refusal.h"
 #include "sphparam/io/repair_advice.h"
 #include "support/joined.h"
 #include "support/one_sided.h"

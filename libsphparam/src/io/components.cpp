@@ -10,7 +10,6 @@
 #include "mesh/triangle_geometry.h"
 #include "mesh/union_find.h"
 #include "sphparam/io/file_numbers.h"
-#include "sphparam/io/repair_advice.h"
 #include "sphparam/names.h"
 
 // Areas are of the mesh at unit size, and added in the order of the faces.

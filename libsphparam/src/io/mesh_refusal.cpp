@@ -14,6 +14,7 @@
 #include "number_text.h"
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/io/losses.h"
+#include "sphparam/io/mesh_refusal.h"
 #include "sphparam/io/mesh_source.h"
 #include "sphparam/io/repair_advice.h"
 #include "sphparam/io/sphere_file.h"

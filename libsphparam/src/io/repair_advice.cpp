@@ -6,6 +6,7 @@
 #include "io/attributes/appearance.h"
 #include "io/shell_word.h"
 #include "number_text.h"
+#include "sphparam/io/mesh_refusal.h"
 #include "sphparam/names.h"
 #include "sphparam/words.h"
 

@@ -12,6 +12,7 @@
 #include "sphparam/gltf/export.h"
 #include "sphparam/image/image_format.h"
 #include "sphparam/io/file_numbers.h"
+#include "sphparam/io/mesh_refusal.h"
 #include "sphparam/io/read_options.h"
 #include "sphparam/io/repair_advice.h"
 #include "sphparam/io/safe_file.h"

@@ -15,7 +15,7 @@
 #include "sphparam/io/fillers.h"
 #include "sphparam/io/map_files.h"
 #include "sphparam/io/mapped_mesh.h"
-#include "sphparam/io/repair_advice.h"
+#include "sphparam/io/mesh_refusal.h"
 #include "sphparam/io/upright_frame.h"
 #include "sphparam/io/verify_map.h"
 #include "sphparam/mesh/mesh_defects.h"

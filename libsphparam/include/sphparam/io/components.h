@@ -20,4 +20,16 @@ struct MeshPart {
 std::vector<MeshPart> connected_parts(MeshSource source,
                                       const RepairOptions& repairs = RepairOptions::none());
 
+/// What the components of a mesh need to be mapped each by itself, as `map --all-components` does.
+struct PartsTrial {
+  long parts = 0, mended = 0;  // of all; of those, that can be mapped then
+  double area_share = 1;       // that these have
+  bool as_they_are = true;     // nothing is to be mended in any of them
+  RepairOptions options;       // that all those take
+  bool are_enough() const;     // all can be mapped, or all but specks
+};
+
+/// Cost: that of the repairs.
+PartsTrial try_parts(const MeshSource& source);
+
 }  // namespace sphparam

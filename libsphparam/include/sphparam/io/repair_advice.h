@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "sphparam/io/components.h"
 #include "sphparam/io/mesh_source.h"
 
 namespace sphparam {
@@ -21,33 +22,8 @@ struct UnaskedRepair {
 /// No more than what repair does unasked, once: whether that is enough.
 UnaskedRepair try_repair_unasked(const MeshSource& source);
 
-/// What the components of a mesh need to be mapped each by itself, as `map --all-components` does.
-struct PartsTrial {
-  long parts = 0, mended = 0;  // of all; of those, that can be mapped then
-  double area_share = 1;       // that these have
-  bool as_they_are = true;     // nothing is to be mended in any of them
-  RepairOptions options;       // that all those take
-  bool are_enough() const;     // all can be mapped, or all but specks
-};
 /// "--repair --all-components --max-handle 46.1%": what `map` is given to mend and map each part.
 std::string all_components_line(const RepairOptions& options);
-
-/// Cost: that of the repairs.
-PartsTrial try_parts(const MeshSource& source);
-
-/// The refusal of a mesh of several components, of which a repair keeps one.
-class PartsRefusal : public MeshRefusal {
- public:
-  PartsRefusal(const MeshSource& source, RepairTrial trial, PartsTrial parts)
-      : MeshRefusal(source, std::move(trial)), parts_(std::move(parts)) {}
-  const PartsTrial& parts() const { return parts_; }
-
- private:
-  PartsTrial parts_;
-};
-
-/// Throws: PartsRefusal; another MeshRefusal.
-[[noreturn]] void refuse(const MeshSource& source);
 
 /// Of the area, what the mended mesh would have of what was there; nothing where that is all.
 std::optional<double> kept_share(const RepairTrial& trial);
