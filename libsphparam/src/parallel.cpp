@@ -1,9 +1,12 @@
 #include "sphparam/parallel.h"
 
+#include <pthread.h>
+
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <exception>
+#include <memory>
 #include <mutex>
 #include <new>
 #include <system_error>
@@ -223,10 +226,32 @@ class Pool {
   }
 };
 
-Pool& pool() {
-  static Pool instance;
-  return instance;
-}
+/// The pool of this process. One that was forked has none of its parent's threads, and their locks
+/// lie as they happened to be held: it leaves that pool alone for ever, and makes its own.
+class PoolOfProcess {
+ public:
+  PoolOfProcess() { ::pthread_atfork(nullptr, nullptr, leave_to_parent); }
+  ~PoolOfProcess() { delete pool_; }
+
+  static Pool& get() {
+    Pool* found = pool_;
+    if (!found) {
+      auto made = std::make_unique<Pool>();
+      if (pool_.compare_exchange_strong(found, made.get())) found = made.release();
+    }
+    return *found;
+  }
+
+ private:
+  static void leave_to_parent() {
+    if (Pool* const pool = pool_.exchange(nullptr)) left_ = pool;
+  }
+
+  static inline std::atomic<Pool*> pool_ = nullptr;
+  static inline Pool* left_ = nullptr;  // so that nobody who looks for leaks calls it lost
+};
+
+const PoolOfProcess ends_with_process;
 
 }  // namespace
 
@@ -251,8 +276,9 @@ void parallel_for(std::int64_t count, std::int64_t grain, int threads,
     loop.work_alone();
   } else {
     loop.split(helpers + 1);
+    Pool& pool = PoolOfProcess::get();
     Pool::inside_pool() = true;
-    const bool done = pool().run(loop, helpers);
+    const bool done = pool.run(loop, helpers);
     Pool::inside_pool() = false;
     if (!done) loop.work_alone();
   }

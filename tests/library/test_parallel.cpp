@@ -1,8 +1,14 @@
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <cmath>
+#include <csignal>
+#include <cstdlib>
 #include <future>
+#include <iostream>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -13,6 +19,41 @@
 #include "sphparam/stopped_by.h"
 
 using namespace sphparam;
+
+namespace {
+
+constexpr auto patience = std::chrono::seconds(60);
+
+/// Whether two threads meet in one loop.
+bool has_two_threads() {
+  std::atomic<int> inside{0};
+  std::atomic<bool> met{false};
+  parallel_for(2, 1, 2, [&](std::int64_t, std::int64_t) {
+    ++inside;
+    const auto end = std::chrono::steady_clock::now() + patience;
+    while (inside < 2 && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+    if (inside == 2) met = true;
+  });
+  return met;
+}
+
+/// What waitpid says of a fork that does this and then exits as its answer is, 0 for true; of one
+/// that does not end, that it was killed.
+template <class Work>
+int status_of_fork(const Work& work) {
+  std::cout.flush();
+  const pid_t child = ::fork();
+  if (child == 0) std::exit(work() ? 0 : 1);
+  const auto end = std::chrono::steady_clock::now() + patience;
+  for (;;) {
+    int status = 0;
+    if (::waitpid(child, &status, WNOHANG) != 0) return status;
+    if (std::chrono::steady_clock::now() > end) ::kill(child, SIGKILL);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+}
+
+}  // namespace
 
 TEST_CASE("parallel: chunks cover the range once, whatever the sizes") {
   for (const int count : {0, 1, 7, 1000, 1001}) {
@@ -74,7 +115,6 @@ TEST_CASE("parallel: a loop inside a loop ends") {
 }
 
 TEST_CASE("parallel: a loop does not wait for one of another thread") {
-  constexpr auto patience = std::chrono::seconds(60);
   std::promise<void> begun, other_is_done;
   auto waiting = other_is_done.get_future().share();
   std::atomic<bool> waited{true};
@@ -94,6 +134,38 @@ TEST_CASE("parallel: a loop does not wait for one of another thread") {
   CHECK(sum == 100);
   CHECK(waited);
 }
+
+TEST_CASE("parallel: a process that is forked ends, whatever loops its parent has run") {
+  REQUIRE(has_two_threads());
+  CHECK(status_of_fork([] { return true; }) == 0);
+  CHECK(has_two_threads());  // the parent's threads are still there
+}
+
+#ifndef __SANITIZE_THREAD__  // which lets no fork of many threads begin others
+TEST_CASE("parallel: a process that is forked has threads of its own, and so have its forks") {
+  REQUIRE(has_two_threads());
+  CHECK(status_of_fork([] { return has_two_threads(); }) == 0);
+  CHECK(status_of_fork([] { return status_of_fork([] { return has_two_threads(); }) == 0; }) == 0);
+  CHECK(status_of_fork([] {
+          return has_two_threads() && status_of_fork([] { return has_two_threads(); }) == 0;
+        }) == 0);
+}
+
+TEST_CASE("parallel: a process may be forked while another thread's loop runs") {
+  std::promise<void> begun, forks_are_done;
+  auto waiting = forks_are_done.get_future().share();
+  std::thread loop([&] {
+    parallel_for(2, 1, 2, [&](std::int64_t first, std::int64_t) {
+      if (first == 0) begun.set_value();
+      waiting.wait_for(patience);
+    });
+  });
+  begun.get_future().wait();
+  CHECK(status_of_fork([] { return has_two_threads(); }) == 0);
+  forks_are_done.set_value();
+  loop.join();
+}
+#endif
 
 TEST_CASE("parallel: loops that are stopped do no more chunks, nor do loops inside them") {
   for (const int threads : {1, 3}) {
