@@ -52,6 +52,18 @@ TEST_CASE("info: a sphere is mappable, its figures are right") {
   CHECK(inspection["volume"].get<double>() == Approx(4.15).margin(0.1));
 }
 
+TEST_CASE("info: an open mesh has no volume") {
+  TriangleMesh open = icosphere(1);
+  open.triangles.conservativeResize(open.face_count() - 1, 3);
+  const std::string text = obj_text(open);
+  CHECK_THAT(sphparam_program({"info", "-"}, text).out, Contains("area") && !Contains("volume"));
+  const Json inspection =
+      Json::parse(sphparam_program({"info", "-", "--json", "-"}, text).out)["inspection"];
+  CHECK(inspection["volume"].is_null());
+  CHECK(inspection["area"] > 10);
+  CHECK_THAT(sphparam_program({"info", "-"}, obj_text(icosphere(1))).out, Contains("volume"));
+}
+
 TEST_CASE("info: a torus ends with 4 and its genus is named") {
   const Ended ended = sphparam_program({"info", "-"}, obj_text(torus(12, 8)));
   CHECK(ended.code == 4);

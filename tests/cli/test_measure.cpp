@@ -116,6 +116,29 @@ TEST_CASE("measure: a glTF file that export has turned is told of, one that it h
   CHECK_THAT(said({"--up", "y"}), !Contains("glTF"));
 }
 
+TEST_CASE("measure: a body that is nearly round is told of as well where glTF has turned it") {
+  const Folder folder;
+  TriangleMesh body = icosphere(3);
+  body.positions *= Eigen::Vector3d(3, 1, 0.93).asDiagonal();
+  write_bytes(folder / "body.obj", obj_text(body));
+  TriangleMesh other = body;
+  other.positions.col(2) *= 0.98;
+  write_bytes(folder / "other.obj", obj_text(other));
+  const auto said = [&](const std::vector<std::string>& exported, const char* measured) {
+    REQUIRE(sphparam_program(exported).code == 0);
+    const Ended ended = sphparam_program(
+        {"measure", folder / measured, folder / "body.glb", "--samples", "2000", "--json", "-"});
+    CHECK(Json::parse(ended.out)["two_sided"]["relative"]["RMS"] < 0.01);
+    return ended.err;
+  };
+  const std::vector<std::string> turns = {"export", folder / "body.obj", "-o", folder / "body.glb"};
+  CHECK_THAT(said(turns, "body.obj"), Contains("y points up in body.glb, which is glTF"));
+  CHECK_THAT(said(turns, "other.obj"), Contains("y points up in body.glb, which is glTF"));
+  std::vector<std::string> stays = turns;
+  stays.insert(stays.end(), {"--up", "y"});
+  CHECK_THAT(said(stays, "other.obj"), !Contains("glTF"));
+}
+
 TEST_CASE("measure: meshes that are no spheres are measured too, empty ones are not") {
   const Folder folder;
   const std::string one = folder / "one.obj", two = folder / "two.obj",

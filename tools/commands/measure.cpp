@@ -90,16 +90,36 @@ std::vector<DistanceLimit> judge(const MeasureArguments& arguments,
   return limits;
 }
 
-/// y points up in glTF, so whatever writes it turns a mesh in which z does: far apart for that
-/// alone.
+/// Whether they are much nearer to one another as glTF has what stands as the other file says.
+bool is_nearer_turned(const MeshFile& gltf, const MeshFile& other, double rms,
+                      const MeasureArguments& arguments, Session& session) {
+  constexpr double much = 0.5;
+  constexpr std::int64_t enough = 10'000;
+  TriangleMesh turned = other.mesh;
+  turned.positions *= upright_rotation(upright_axes(other)).transpose();
+  DistanceOptions options = arguments.options;
+  options.samples = std::min(options.samples, enough);
+  options.extremes = false;
+  options.threads = session.threads();
+  return measure_distance(gltf.mesh, turned, options).rms() <= much * rms;
+}
+
+/// y points up in glTF, so whatever writes it turns a mesh in which z does: apart for that alone.
+/// A body that is nearly round is not far from itself as it is turned.
 void tell_turned(const MeasureArguments& arguments, const MeshFile& first, const MeshFile& second,
                  const SurfaceDistance& distance, Session& session) {
-  constexpr double far = 0.01;  // of the diagonal
+  constexpr double far = 0.01, near = 1e-4;  // of the diagonal
   const auto is_gltf = [](const MeshFile& file) { return file.format.starts_with("glTF"); };
-  if (is_gltf(first) == is_gltf(second) || distance.rms() < far * distance.diagonal_first) return;
+  if (is_gltf(first) == is_gltf(second)) return;
   const bool first_is_gltf = is_gltf(first);
-  const std::optional<Vector3> up = noted_up(first_is_gltf ? second : first).direction;
+  const MeshFile& not_gltf = first_is_gltf ? second : first;
+  const std::optional<Vector3> up = noted_up(not_gltf).direction;
   if (up && *up == Vector3::UnitY()) return;
+  const double apart = distance.rms() / distance.diagonal_first;
+  if (apart < near) return;
+  if (apart < far && !is_nearer_turned(first_is_gltf ? first : second, not_gltf, distance.rms(),
+                                       arguments, session))
+    return;
   const std::string a = display_name(arguments.first), b = display_name(arguments.second);
   const std::string& gltf = first_is_gltf ? a : b;
   const std::string& other = first_is_gltf ? b : a;

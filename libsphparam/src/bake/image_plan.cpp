@@ -45,7 +45,8 @@ double exact_numbers(SampleType type) {
 
 /// Numbers that are rounded would name other faces.
 void require_exact_labels(const PlannedImage& image) {
-  if (image.field.kind != FieldKind::Label || !image.field.range || image.field.channels > 1)
+  if (image.field.kind != FieldKind::Label || !image.field.range ||
+      image.field.proper_channels() > 1)
     return;
   const auto [least, greatest] = *image.field.range;
   const SampleType type = image.file.sample_type;
@@ -53,11 +54,11 @@ void require_exact_labels(const PlannedImage& image) {
   const double needed =
       is_integer(type) ? greatest - least : std::max(std::abs(least), std::abs(greatest));
   if (needed <= most) return;
-  throw BakeSettingError("depth",
-                         std::string(name_of(type)) + " holds whole numbers up to " +
-                             std::to_string(std::lround(most)) + " exactly; " + image.field.name +
-                             " goes up to " + std::to_string(std::lround(needed)) +
-                             (type == SampleType::Float ? "" : "; float holds more, in an .exr"));
+  throw BakeSettingError(
+      "depth", std::string(name_of(type)) + " holds whole numbers up to " +
+                   std::to_string(std::lround(most)) + " exactly; " + image.field.name +
+                   " goes up to " + std::to_string(std::lround(needed)) +
+                   (type == SampleType::Float ? "" : "; float holds more, in a .tif or .exr"));
 }
 
 void require_channels(const PlannedImage& image) {
@@ -134,12 +135,18 @@ void find_ranges(std::vector<PlannedImage>& images, const BakeScene& scene,
          const std::ptrdiff_t channels = fields[i].channels, proper = fields[i].proper_channels();
          const float* const end = values + std::ptrdiff_t{rows} * settings.width * channels;
          for (; values != end; values += channels) {
-           const auto [least, greatest] = std::minmax_element(values, values + proper);
-           ranges[i].first = std::min(ranges[i].first, static_cast<double>(*least));
-           ranges[i].second = std::max(ranges[i].second, static_cast<double>(*greatest));
+           const bool is_surface = !fields[i].has_coverage || values[proper] > 0;
+           for (std::ptrdiff_t c = 0; is_surface && c < proper; ++c) {
+             if (!std::isfinite(values[c])) continue;
+             ranges[i].first = std::min(ranges[i].first, static_cast<double>(values[c]));
+             ranges[i].second = std::max(ranges[i].second, static_cast<double>(values[c]));
+           }
          }
        });
-  for (size_t i = 0; i < unknown.size(); ++i) unknown[i]->field.range = ranges[i];
+  for (size_t i = 0; i < unknown.size(); ++i) {
+    const bool any = ranges[i].first <= ranges[i].second;
+    unknown[i]->field.range = any ? ranges[i] : std::pair(0.0, 0.0);
+  }
 }
 
 }  // namespace sphparam

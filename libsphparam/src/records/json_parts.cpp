@@ -84,7 +84,7 @@ Json inspection_json(const MeshInspection& inspection) {
           {"euler_characteristic", inspection.euler_characteristic},
           {"genus", inspection.genus},
           {"area", inspection.area},
-          {"volume", inspection.volume},
+          {"volume", inspection.boundary_loops > 0 ? Json() : Json(inspection.volume)},
           {"bounding_box", {vector_json(inspection.lower), vector_json(inspection.upper)}},
           {"defects", defects}};
 }
