@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "remesh/grid_holes.h"
+#include "sphparam/remesh/sphere_grid.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -14,6 +15,7 @@ namespace {
 
 const TriangleMesh ball = icosphere(3);
 const Topology topology(ball);
+const Triangulation triangles = {.triangles = ball.triangles, .corner = {}, .polygon = {}};
 
 double height_of(Face f) {
   return (ball.position(ball.triangles(f, 0)) + ball.position(ball.triangles(f, 1)) +
@@ -51,15 +53,15 @@ TEST_CASE("grid holes: fillers that share an edge close one hole, others another
 
 TEST_CASE("grid holes: what is tidy stays as it is, and so do fillers without a surface") {
   const auto holes = by_height([](double z) { return z > 0.8 ? 0 : z < -0.8 ? 1 : -1; });
-  CHECK(tidy_fillers(topology, holes) == marks(holes));
+  CHECK(tidy_fillers(topology, triangles, holes) == marks(holes));
   const std::vector<int> all(holes.size(), 0);
-  CHECK(tidy_fillers(topology, all) == marks(all));
+  CHECK(tidy_fillers(topology, triangles, all) == marks(all));
 }
 
 TEST_CASE("grid holes: of a surface in pieces the largest stays") {
   const auto belt = by_height([](double z) { return z > 0.3 && z < 0.6 ? 0 : -1; });
   const auto wanted = by_height([](double z) { return z > 0.3 ? 0 : -1; });
-  CHECK(tidy_fillers(topology, belt) == marks(wanted));
+  CHECK(tidy_fillers(topology, triangles, belt) == marks(wanted));
 }
 
 TEST_CASE("grid holes: of each hole the largest piece stays, however small another hole is") {
@@ -72,9 +74,9 @@ TEST_CASE("grid holes: of each hole the largest piece stays, however small anoth
     for (const Face speck : {first, last}) {  // before and after the rest of its hole
       auto holes = cap;
       holes[static_cast<size_t>(speck)] = 0;
-      CHECK(tidy_fillers(topology, holes) == marks(cap));
+      CHECK(tidy_fillers(topology, triangles, holes) == marks(cap));
       holes[static_cast<size_t>(speck)] = 1;  // a hole of one triangle
-      CHECK(tidy_fillers(topology, holes) == marks(holes));
+      CHECK(tidy_fillers(topology, triangles, holes) == marks(holes));
     }
   }
 }
@@ -88,5 +90,27 @@ TEST_CASE("grid holes: where fillers touch at a vertex all about it are fillers"
   holes[static_cast<size_t>(about[0])] = holes[static_cast<size_t>(about[3])] = 0;
   std::vector<int> wanted(holes.size(), -1);
   for (const Face f : about) wanted[static_cast<size_t>(f)] = 0;
-  CHECK(tidy_fillers(topology, holes) == marks(wanted));
+  CHECK(tidy_fillers(topology, triangles, holes) == marks(wanted));
+}
+
+TEST_CASE("grid holes: where fillers touch at a vertex the quads about it are fillers whole") {
+  const SphereGrid grid = make_grid(parse_grid("cube:4"));
+  const Triangulation cut = triangulate(grid.directions, grid.faces);
+  const Topology of_cut(cut.triangles, static_cast<int>(grid.directions.rows()));
+  const auto has_four = [&](Vertex v) { return std::ranges::count(grid.faces.corners, v) == 4; };
+  const Vertex v = *std::ranges::find_if(std::views::iota(Vertex{0}), has_four);
+  std::vector<int> about;  // quads, in turn
+  of_cut.for_each_outgoing(v, [&](Halfedge h) {
+    const auto p = static_cast<int>(cut.polygon_of(Topology::face(h)));
+    if (std::ranges::find(about, p) == about.end()) about.push_back(p);
+  });
+  REQUIRE(about.size() == 4);
+  for (const size_t first : {0U, 1U}) {
+    std::vector<int> holes, wanted;
+    for (const int p : cut.polygon) {
+      holes.push_back(p == about[first] || p == about[first + 2] ? 0 : -1);
+      wanted.push_back(std::ranges::find(about, p) != about.end() ? 0 : -1);
+    }
+    CHECK(tidy_fillers(of_cut, cut, holes) == marks(wanted));
+  }
 }

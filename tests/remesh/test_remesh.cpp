@@ -237,6 +237,25 @@ TEST_CASE("remesh: over cells nothing is left out, at points most is") {
   CHECK(spread(SampleMode::Point) > 1.5);
 }
 
+TEST_CASE("remesh: means over cells and by areas are the same however large the mesh is") {
+  MeshFile file;
+  file.mesh = icosphere(4);
+  const SphereMap map{file.mesh.positions};
+  for (auto row : file.mesh.positions.rowwise()) row *= 1 + 0.3 * std::sin(4 * row[0] + row[1]);
+  Property height{"height", ScalarType::Float64, {}};
+  for (const double z : map.points.col(2)) height.values.push_back(std::sin(9 * z));
+  file.vertex_properties.push_back(height);
+  const auto heights = [&](double size, SampleMode mode) {
+    MeshFile scaled = file;
+    scaled.mesh.positions *= size;
+    const Remeshed made = remesh(mapped(scaled, map), grid_named("ico:2"), {.sample = mode});
+    return vertex_property(made.file(), "height").values;
+  };
+  for (const SampleMode mode : {SampleMode::Cell, SampleMode::AdapBaryArea})
+    for (const int exponent : {-533, -200, 200, 533})
+      CHECK(heights(std::ldexp(1.0, exponent), mode) == heights(1, mode));
+}
+
 TEST_CASE("remesh: two corners of one label outweigh a heavier one") {
   MeshFile source;
   source.mesh = icosphere(0);

@@ -2,6 +2,9 @@
 
 #include "remesh/cell_means.h"
 
+#include <optional>
+
+#include "mesh/unit_size.h"
 #include "sphparam/sphere/sphere_locator.h"
 
 namespace sphparam {
@@ -29,11 +32,16 @@ void for_each_gift(const std::vector<SurfacePoint>& places, const VectorX& areas
 
 }  // namespace
 
+VectorX relative_areas(const TriangleMesh& mesh) {
+  const std::optional<Rescaled> unit = at_unit_size(mesh);
+  return vertex_areas(unit ? unit->mesh : mesh);
+}
+
 Gather gather_cells(const TriangleMesh& source, const SphereMap& map, const Topology& grid,
                     const SphereMap& grid_map, int threads) {
   const std::vector<SurfacePoint> places =
       SphereLocator(grid, grid_map, threads).locate_all(map.points, threads);
-  const VectorX areas = vertex_areas(source);
+  const VectorX areas = relative_areas(source);
   const auto count = static_cast<size_t>(grid.vertex_count());
   std::vector<std::int64_t> gifts(count, 0);
   for_each_gift(places, areas, grid,

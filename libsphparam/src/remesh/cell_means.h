@@ -6,6 +6,9 @@
 
 namespace sphparam {
 
+/// `vertex_areas`, of the mesh at about unit size where squares of its own would be no numbers.
+VectorX relative_areas(const TriangleMesh& mesh);
+
 /// Means over the cells of a grid where it is coarser than the source: every vertex of the source
 /// gives to the corners of the grid triangle that it lies in, by barycentric weight times its own
 /// area on the source surface, so that nothing is left out, however small. A grid vertex that gets

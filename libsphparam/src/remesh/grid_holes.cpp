@@ -7,7 +7,8 @@
 
 // First vertices where fans touch get fillers all around; then surface that is not of the largest
 // piece becomes fillers; then of each hole's pieces the largest stays. No step undoes the one
-// before.
+// before, and none parts the triangles of a polygon: the first takes whole ones, and to the others
+// they are one piece.
 
 namespace sphparam {
 namespace {
@@ -34,12 +35,22 @@ int fans_at(const Topology& grid, const FillerMarks& fillers, Vertex v) {
   return fans;
 }
 
-void join_fans(const Topology& grid, FillerMarks& fillers) {
+/// Marks all triangles of a triangle's polygon: they come in a row.
+void fill_polygon(const Triangulation& cut, Face f, FillerMarks& fillers) {
+  const auto is_of_it = [&](Face g) {
+    return g >= 0 && g < std::ssize(fillers) && cut.polygon_of(g) == cut.polygon_of(f);
+  };
+  Face first = f;
+  while (is_of_it(first - 1)) --first;
+  for (Face g = first; is_of_it(g); ++g) fillers[at(g)] = 1;
+}
+
+void join_fans(const Topology& grid, const Triangulation& cut, FillerMarks& fillers) {
   for (bool changed = true; changed;) {
     changed = false;
     for (Vertex v = 0; v < grid.vertex_count(); ++v) {
       if (fans_at(grid, fillers, v) < 2) continue;
-      grid.for_each_outgoing(v, [&](Halfedge h) { fillers[at(Topology::face(h))] = 1; });
+      grid.for_each_outgoing(v, [&](Halfedge h) { fill_polygon(cut, Topology::face(h), fillers); });
       changed = true;
     }
   }
@@ -88,12 +99,13 @@ std::vector<int> holes_of(const Topology& topology, const FillerMarks& fillers) 
   return holes;
 }
 
-FillerMarks tidy_fillers(const Topology& grid, const std::vector<int>& holes) {
+FillerMarks tidy_fillers(const Topology& grid, const Triangulation& cut,
+                         const std::vector<int>& holes) {
   FillerMarks fillers(holes.size());
   for (size_t f = 0; f < holes.size(); ++f) fillers[f] = holes[f] >= 0 ? 1 : 0;
   if (std::find(fillers.begin(), fillers.end(), 0) == fillers.end()) return fillers;
   const FillerMarks before = fillers;
-  join_fans(grid, fillers);
+  join_fans(grid, cut, fillers);
   if (std::find(fillers.begin(), fillers.end(), 0) == fillers.end()) return before;
   keep_largest_surface(grid, fillers);
   keep_largest_of_holes(grid, holes, fillers);

@@ -32,13 +32,6 @@ namespace {
 constexpr std::int64_t grain = 4096;
 constexpr std::int64_t located_at_once = 1 << 20;  // between two looks whether to go on
 
-bool is_one_of(std::span<const char* const> names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-constexpr const char* colours[] = {"red", "green", "blue", "alpha"};
-constexpr const char* normals[] = {"nx", "ny", "nz"};
-
 std::vector<SurfacePoint> locate(const SphereLocator& locator, const Points& directions,
                                  const char* stage, const RemeshOptions& options) {
   const std::int64_t all = directions.rows();
@@ -112,12 +105,11 @@ class Transfer {
     for (const Property& property : source_.vertex_properties) {
       if (!wanted_.property(property.name)) continue;
       report(options_.progress, "transfer", 0);
-      const bool is_colour = is_one_of(colours, property.name);
-      file.vertex_properties.push_back({property.name, property.type,
-                                        is_colour ? resample_colour(resampling(), property)
-                                        : is_floating(property.type)
-                                            ? resample_property(resampling(), property)
-                                            : resample_labels(resampling(), property)});
+      file.vertex_properties.push_back(
+          {property.name, property.type,
+           is_colour_name(property.name) ? resample_colour(resampling(), property)
+           : is_floating(property.type)  ? resample_property(resampling(), property)
+                                         : resample_labels(resampling(), property)});
     }
     renormalise(file);
   }
@@ -167,10 +159,10 @@ class Transfer {
     const VectorX& of_source = options_.source_areas;
     const VectorX& of_grid = options_.grid_areas;
     const Topology topology(on_grid, options_.threads);
-    cells_ = adap_bary_area_weights(source, topology, SphereMap{grid_.directions},
-                                    of_source.size() > 0 ? of_source : vertex_areas(source.mesh()),
-                                    of_grid.size() > 0 ? of_grid : vertex_areas(on_grid),
-                                    options_.threads);
+    cells_ = adap_bary_area_weights(
+        source, topology, SphereMap{grid_.directions},
+        of_source.size() > 0 ? of_source : relative_areas(source.mesh()),
+        of_grid.size() > 0 ? of_grid : relative_areas(on_grid), options_.threads);
   }
 
   /// Of faces; what marks fillers is no matter of choice.
@@ -185,8 +177,9 @@ class Transfer {
   void renormalise(MeshFile& file) const {
     std::array<Property*, 3> of_file{};
     for (Property& property : file.vertex_properties) {
-      const auto* const at = std::find(std::begin(normals), std::end(normals), property.name);
-      if (at != std::end(normals)) of_file[static_cast<size_t>(at - normals)] = &property;
+      const auto* const at =
+          std::find(std::begin(normal_names), std::end(normal_names), property.name);
+      if (at != std::end(normal_names)) of_file[static_cast<size_t>(at - normal_names)] = &property;
     }
     if (std::count(of_file.begin(), of_file.end(), nullptr) > 0) return;
     std::vector<double> rows(3 * points_.size());
@@ -252,7 +245,7 @@ class Transfer {
       }
     }
     const int vertices = static_cast<int>(grid_.directions.rows());
-    return tidy_fillers(Topology(cut.triangles, vertices, options_.threads), marks);
+    return tidy_fillers(Topology(cut.triangles, vertices, options_.threads), cut, marks);
   }
 
   template <class Table>

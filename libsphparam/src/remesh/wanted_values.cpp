@@ -11,12 +11,11 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-bool contains(const Names& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
+bool contains(const auto& names, const std::string& name) {
+  return std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
-const Names colours = {"red", "green", "blue", "alpha"};
-const Names normals = {"nx", "ny", "nz"};
+constexpr const char* colour_names[] = {"red", "green", "blue", "alpha"};
 const Names texcoords = {"s", "t"};
 /// What belongs to the source's own numbering and map.
 const Names not_carried = {"theta", "phi", "sx", "sy", "sz", "source_vertex", "source_face"};
@@ -36,6 +35,8 @@ std::string list_of(const MeshFile& source) {
 
 }  // namespace
 
+bool is_colour_name(const std::string& name) { return contains(colour_names, name); }
+
 WantedValues::WantedValues(const Names& words, const MeshFile& source) : words_(words) {
   const Names known = {"all", "none", "position", "color", "colour", "normal", "uv", "material"};
   for (const std::string& word : words) {
@@ -49,11 +50,11 @@ WantedValues::WantedValues(const Names& words, const MeshFile& source) : words_(
 
 bool WantedValues::property(const std::string& name) const {
   if (contains(not_carried, name) || is_corner_colour(name)) return false;
-  const auto group = [&](const Names& names, const char* word) {
+  const auto group = [&](const auto& names, const char* word) {
     return contains(names, name) && contains(words_, word);
   };
-  return contains(words_, "all") || contains(words_, name) || group(colours, "color") ||
-         group(colours, "colour") || group(normals, "normal") || group(texcoords, "uv");
+  return contains(words_, "all") || contains(words_, name) || group(colour_names, "color") ||
+         group(colour_names, "colour") || group(normal_names, "normal") || group(texcoords, "uv");
 }
 
 bool WantedValues::corner_texcoords() const {

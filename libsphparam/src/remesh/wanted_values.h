@@ -7,6 +7,12 @@
 
 namespace sphparam {
 
+/// Properties of vertices that are one normal.
+constexpr const char* normal_names[] = {"nx", "ny", "nz"};
+
+/// Whether a property of vertices of this name is of their colour.
+bool is_colour_name(const std::string& name);
+
 /// Which of a source's values are to be carried, by the words of `RemeshOptions::transfer`.
 class WantedValues {
  public:
