@@ -124,6 +124,8 @@ TEST_CASE("fine limit mesh: closed, outward and as fine as asked, on the surface
     const LimitVertices limit =
         limit_at_vertices(LimitSurface(fit.topology, fit.control), grid.faces);
     CHECK((mesh.positions.topRows(vertices) - limit.positions).rowwise().norm().maxCoeff() < 1e-4);
+    for (const std::int64_t pieces : {std::int64_t{1} << 40, std::int64_t{1} << 62})
+      CHECK_THROWS_WITH(fine_limit_mesh(fit, grid.faces, pieces, 1), Catch::Contains("more than"));
   }
 }
 

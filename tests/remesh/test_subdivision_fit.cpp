@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
+#include <set>
 #include <stdexcept>
 
 #include "remesh/limit_subject.h"
@@ -8,6 +9,7 @@
 #include "remesh/subdivision/limit_vertices.h"
 #include "remesh/subdivision/patch_net.h"
 #include "remesh/subdivision/stencil_least_squares.h"
+#include "sphparam/io/fillers.h"
 #include "sphparam/measure/surface_distance.h"
 #include "sphparam/parameterize.h"
 #include "sphparam/remesh/remesh.h"
@@ -281,6 +283,51 @@ TEST_CASE("subdivision fit: a mesh elsewhere and larger has the same fit there")
                there = fit_subdivision(mapped(moved, map), grid).control;
   const Points back = (there.rowwise() - Eigen::RowVector3d(64, -32, 16)) / 8;
   CHECK((here - back).cwiseAbs().maxCoeff() < 1e-9);
+}
+
+TEST_CASE("subdivision fit: quads are cut as a reader of the new positions would cut them") {
+  MeshFile file;
+  file.mesh = bumpy_sphere(4);
+  const SphereMap map{icosphere(4).positions};
+  FillerMarks cap;
+  CornerTexcoords texcoords(3 * file.mesh.face_count(), 2);
+  for (Face f = 0; f < file.mesh.face_count(); ++f) {
+    cap.push_back(file.mesh.positions(file.mesh.triangles(f, 0), 2) > 0.9);
+    for (int k = 0; k < 3; ++k)
+      texcoords.row(3 * f + k) = map.points.row(file.mesh.triangles(f, k)).head<2>();
+  }
+  mark_fillers(file, cap);
+  file.corner_texcoords = texcoords;
+  const MappedMesh source = mapped(file, map);
+  for (const char* name : {"cube:8", "uv:12x7", "healpix:4"}) {
+    INFO(name);
+    const SphereGrid grid = make_grid(parse_grid(name));
+    const SubdivisionFit fit =
+        fit_subdivision(source, grid, {.scheme = Scheme::CatmullClark, .threads = 2});
+    const Remeshed flat = remesh(source, grid), control = control_mesh(flat, fit),
+                   limit = limit_mesh(control, fit);
+    CHECK(control.mesh().triangles != flat.mesh().triangles);
+    const auto marked = [](const Remeshed& mesh) {  // faces of the grid
+      std::set<double> faces;
+      const auto& of = mesh.file().find_face_property("source_face")->values;
+      for (size_t t = 0; t < of.size(); ++t)
+        if (mesh.fillers()[t]) faces.insert(of[t]);
+      return faces;
+    };
+    CHECK_FALSE(marked(flat).empty());
+    for (const Remeshed* made : {&control, &limit}) {
+      const Triangulation cut = triangulate(made->mesh().positions, grid.faces);
+      CHECK(made->mesh().triangles == cut.triangles);
+      CHECK(marked(*made) == marked(flat));
+      REQUIRE(made->file().corner_texcoords);
+      for (Eigen::Index i = 0; i < cut.triangles.size(); ++i) {
+        const Vertex v = cut.triangles.data()[i];
+        const Eigen::RowVector2d off =
+            made->file().corner_texcoords->row(i) - grid.directions.row(v).head<2>();
+        CHECK(off.norm() < 0.02);
+      }
+    }
+  }
 }
 
 TEST_CASE("subdivision fit: the same bytes for any number of threads") {

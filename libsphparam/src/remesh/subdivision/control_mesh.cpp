@@ -26,12 +26,38 @@ Provenance with_scheme(Provenance lines, Scheme scheme) {
   return lines;
 }
 
+/// Cuts the faces anew, as a reader of the new positions would, with what they and corners have.
+void cut_anew(MeshFile& file, const Polygons& faces) {
+  const std::vector<int> before = corners_in(file.mesh.triangles, faces);
+  Triangulation cut = triangulate(file.mesh.positions, faces);
+  for (Property& property : file.face_properties) {
+    std::vector<double> of_faces;
+    for (std::int64_t p = 0; p < faces.count(); ++p) {
+      const int corner = before[static_cast<size_t>(faces.starts[static_cast<size_t>(p)])];
+      of_faces.push_back(property.values[static_cast<size_t>(corner / 3)]);
+    }
+    property.values = std::move(of_faces);
+  }
+  const auto move_rows = [&](auto& table) {
+    if (!table) return;
+    const auto old = *table;
+    for (Eigen::Index i = 0; i < old.rows(); ++i)
+      table->row(i) = old.row(before[static_cast<size_t>(cut.corner_of(i))]);
+  };
+  move_rows(file.corner_texcoords);
+  move_rows(file.corner_normals);
+  move_rows(file.second_texcoords);
+  move_rows(file.corner_tangents);
+  file.notes.clear();  // of the cut before
+  adopt_triangulation(file, std::move(cut));
+}
+
 /// The same grid with other positions.
 Remeshed with_file(const Remeshed& mesh, MeshFile file, Provenance provenance, int threads) {
+  cut_anew(file, mesh.faces());
   return {MappedMesh({.file = std::move(file),
                       .map = mesh.map(),
                       .provenance = std::move(provenance),
-                      .topology = mesh.topology(),
                       .polygons = mesh.faces(),
                       .name = mesh.name()},
                      threads),

@@ -11,8 +11,9 @@ TriangleMesh fine_limit_mesh(const SubdivisionFit& fit, const Polygons& faces, s
   const Scheme scheme = fit.topology->scheme();
   ControlMesh control{faces, {fit.control}};
   if (!faces_are_patches(faces, scheme)) control = subdivide_to_quads(control);
+  const std::int64_t patches = control.faces.count();
   int cuts = 2;
-  while (cuts * cuts * control.faces.count() < pieces) ++cuts;
+  while (cuts <= most_cuts && std::int64_t{cuts} * cuts * patches < pieces) ++cuts;
   const Points& points = control.points[0];
   const Tessellation fine = tessellate(control.faces, static_cast<int>(points.rows()), cuts);
   const std::vector<LimitPoint> limit =

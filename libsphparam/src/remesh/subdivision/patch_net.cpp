@@ -264,7 +264,7 @@ Tessellation tessellate(const Polygons& faces, int vertex_count, int n) {
   const PatchNet net(faces);
   const int degree = net.degree(), patches = net.patch_count();
   const std::int64_t squared = std::int64_t{n} * n;
-  if (n > 1 << 14 || squared * patches > std::numeric_limits<int>::max() / 4) {
+  if (n > most_cuts || squared * patches > std::numeric_limits<int>::max() / 4) {
     throw std::invalid_argument("more than " + std::to_string(std::numeric_limits<int>::max() / 4) +
                                 " faces");
   }

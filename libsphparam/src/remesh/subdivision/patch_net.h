@@ -60,9 +60,11 @@ struct Tessellation {
   std::vector<LimitPlace> vertices;
 };
 
+constexpr int most_cuts = 1 << 14;  // of an edge
+
 /// Vertices of the control mesh come first, with their numbers; then n − 1 on each edge, then those
 /// within patches. Requires: as PatchNet; n ≥ 1. Ensures: a closed manifold, as the faces are.
-/// Throws: std::invalid_argument for more corners than an index can number.
+/// Throws: std::invalid_argument for more corners than an index can number, or n > `most_cuts`.
 Tessellation tessellate(const Polygons& faces, int vertex_count, int n);
 
 }  // namespace sphparam
