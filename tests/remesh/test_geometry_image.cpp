@@ -217,6 +217,22 @@ TEST_CASE("geometry images: a mesh comes back from its files, normals and colour
   CHECK_THROWS_AS(load_geometry_image({.positions = folder + "/position.exr",
                                        .attributes = {{"thickness", folder + "/color.exr"}}}),
                   ImageError);
+  const auto refused = [&](const GeometryImageFiles& images, const char* words) {
+    CHECK_THROWS_WITH(load_geometry_image(images), Catch::Contains(words));
+  };
+  refused({.positions = folder + "/normal.exr"},
+          "normal.exr: the image of 'normal', not of 'position'; give it as --normals");
+  refused({.positions = folder + "/position.exr", .normals = folder + "/position.exr"},
+          "position.exr: the image of 'position', not of 'normal'; give it as IMAGE");
+  refused(
+      {.positions = folder + "/position.exr", .attributes = {{"colour", folder + "/normal.exr"}}},
+      "the image of 'normal', not of 'colour'");
+  refused({.positions = folder + "/position.exr", .normals = folder + "/color.exr"},
+          "the image of 'color', not of 'normal'; give it as --attribute NAME=FILE");
+  CHECK(load_geometry_image({.positions = folder + "/position.exr",
+                             .attributes = {{"colour", folder + "/color.exr"}}})
+            .file()
+            .find_vertex_property("red"));
   std::filesystem::remove_all(folder);
 }
 

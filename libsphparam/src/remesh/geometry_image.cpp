@@ -10,6 +10,7 @@
 #include "mesh/vertex_normals.h"
 #include "remesh/image_file.h"
 #include "remesh/image_values.h"
+#include "sphparam/io/read_options.h"
 #include "sphparam/version.h"
 
 namespace sphparam {
@@ -20,6 +21,8 @@ using Names = std::vector<std::string>;
 
 /// More than 10 million vertices in float take.
 constexpr ImageLimits large_image = {.decoded_megabytes = 4096};
+
+constexpr char map_text[] = "sphparam:map";  // names what an image is of
 
 bool is_colour(const std::string& what) { return what == "color" || what == "colour"; }
 
@@ -63,9 +66,22 @@ SampleType sample_type(ImageDepth depth) {
                                      : SampleType::Float;
 }
 
-ImageContents read_contents(const std::string& path, int threads) {
+/// Where the texts of an image name what it is of, it must be of that.
+void require_image_of(const std::string& path, const std::string& what, const ImageTexts& texts) {
+  for (const auto& [key, named] : texts) {
+    if (key != map_text || named == what || (is_colour(named) && is_colour(what))) continue;
+    throw ImageError(path + ": the image of " + quoted(named) + ", not of " + quoted(what) +
+                     "; give it as " +
+                     (named == "position" ? "IMAGE"
+                      : named == "normal" ? "--normals"
+                                          : "--attribute NAME=FILE, with that name"));
+  }
+}
+
+ImageContents read_contents(const std::string& path, const std::string& what, int threads) {
   ImageTexts texts;
   const Image image = read_image(path, large_image, &texts);
+  require_image_of(path, what, texts);
   try {
     return read_geometry_image(image, texts, threads);
   } catch (const std::invalid_argument& error) {
@@ -73,18 +89,18 @@ ImageContents read_contents(const std::string& path, int threads) {
   }
 }
 
-/// Properties of these names from an image of the same grid. Whole numbers from 0 to 255 of colours
-/// are bytes again.
-void add_properties(MeshFile& file, const GridSpec& spec, const std::string& path,
-                    const Names& names, bool colour, int threads) {
-  const ImageContents contents = read_contents(path, threads);
+/// Properties of these names from the image of `what`, of the same grid. Whole numbers from 0 to
+/// 255 of colours are bytes again.
+void add_properties(MeshFile& file, const GridSpec& spec, const std::string& what,
+                    const std::string& path, const Names& names, int threads) {
+  const ImageContents contents = read_contents(path, what, threads);
   if (contents.spec != spec || contents.channels != static_cast<int>(names.size())) {
     throw ImageError(path + ": not " + std::to_string(names.size()) + " channels of " +
                      name_of(spec));
   }
   const bool bytes =
-      colour && std::all_of(contents.values.begin(), contents.values.end(),
-                            [](double x) { return holds_exactly(ScalarType::Uint8, x); });
+      is_colour(what) && std::all_of(contents.values.begin(), contents.values.end(),
+                                     [](double x) { return holds_exactly(ScalarType::Uint8, x); });
   const auto count = static_cast<size_t>(file.mesh.vertex_count());
   for (size_t k = 0; k < names.size(); ++k) {
     Property property{names[k], bytes ? ScalarType::Uint8 : ScalarType::Float32,
@@ -105,9 +121,9 @@ MeshFile mesh_of(const ImageContents& contents, const GeometryImageFiles& files,
       Eigen::Map<const Points>(contents.values.data(), contents.grid.directions.rows(), 3);
   adopt_triangulation(file, triangulate(file.mesh.positions, contents.grid.faces));
   if (!files.normals.empty())
-    add_properties(file, contents.spec, files.normals, {"nx", "ny", "nz"}, false, threads);
+    add_properties(file, contents.spec, "normal", files.normals, {"nx", "ny", "nz"}, threads);
   for (const auto& [name, path] : files.attributes)
-    add_properties(file, contents.spec, path, properties_of(name), is_colour(name), threads);
+    add_properties(file, contents.spec, name, path, properties_of(name), threads);
   return file;
 }
 
@@ -120,7 +136,7 @@ void add_geometry_image(PendingFiles& files, const std::string& path, const Reme
   const Channels channels = channels_of(mesh.file(), what);
   GeometryImage made =
       make_geometry_image(spec, mesh.map().points, channels.values, channels.count, stored);
-  made.texts.emplace_back("sphparam:map", what);
+  made.texts.emplace_back(map_text, what);
   const std::vector<char> bytes =
       encode_image(made.image, stored == ImageDepth::Uint16 ? ImageFormat::Png : ImageFormat::Exr,
                    {.sample_type = sample_type(stored), .metadata = made.texts});
@@ -130,7 +146,7 @@ void add_geometry_image(PendingFiles& files, const std::string& path, const Reme
 Remeshed load_geometry_image(const GeometryImageFiles& files, int threads,
                              const Progress& progress) {
   report(progress, "read", 0);
-  ImageContents contents = read_contents(files.positions, threads);
+  ImageContents contents = read_contents(files.positions, "position", threads);
   MeshFile file = mesh_of(contents, files, threads);
   report(progress, "certify", 0);
   return {MappedMesh({.file = std::move(file),

@@ -44,9 +44,9 @@ struct GeometryImageFiles {
 
 /// The mesh that such images were made of, with its map, the directions of the grid. A colour of
 /// whole numbers from 0 to 255 is one of bytes again.
-/// Throws: ImageError for what is no image of positions, for attributes of another grid, and where
-/// samples of one vertex differ, as the image was changed on one side of its cut;
-/// NotCertifiedError; Cancelled.
+/// Throws: ImageError for what is no image of positions, for attributes of another grid, for an
+/// image whose texts name another thing than it is given as, and where samples of one vertex
+/// differ, as the image was changed on one side of its cut; NotCertifiedError; Cancelled.
 Remeshed load_geometry_image(const GeometryImageFiles& files, int threads = 0,
                              const Progress& progress = {});
 
