@@ -1,3 +1,4 @@
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -234,6 +235,54 @@ TEST_CASE("resample: places in 32 bits are the nearest ones, from wherever they 
     CHECK((place_of(found[i]) - place_of(exact[i])).norm() < 1e-5);
     CHECK(again[i].face == found[i].face);
     CHECK(again[i].barycentric == found[i].barycentric);
+  }
+}
+
+TEST_CASE("resample: triangles that 32 bits make lines or points hold what is nearest to these") {
+  constexpr double tiny = 1e-9;
+  TriangleMesh mesh = ball(2);
+  const std::array<Vertex, 3> outer = {mesh.triangles(0, 0), mesh.triangles(0, 1),
+                                       mesh.triangles(0, 2)};
+  const auto first = static_cast<Vertex>(mesh.vertex_count());
+  const auto all = mesh.face_count();
+  const Points corners = mesh.positions;
+  const Vector3 middle =
+      (corners.row(outer[0]) + corners.row(outer[1]) + corners.row(outer[2])).normalized();
+  mesh.positions.conservativeResize(first + 3, 3);
+  mesh.triangles.conservativeResize(all + 6, 3);
+  mesh.triangles.row(0) << first, first + 1, first + 2;
+  for (int k = 0; k < 3; ++k) {
+    const int next = (k + 1) % 3;
+    const Vector3 corner = corners.row(outer[static_cast<size_t>(k)]);
+    mesh.positions.row(first + k) = (middle + tiny * (corner - middle)).normalized();
+    mesh.triangles.row(all + 2 * k) << outer[static_cast<size_t>(k)],
+        outer[static_cast<size_t>(next)], first + next;
+    mesh.triangles.row(all + 2 * k + 1) << outer[static_cast<size_t>(k)], first + next, first + k;
+  }
+  const MappedMesh current = mapped(mesh);
+  std::vector<Vector3> probes;
+  for (const Vertex v : outer)
+    for (int i = 0; i <= 64; ++i)
+      for (const Vertex w : outer) {
+        const Vector3 to = corners.row(v) + 0.3 * corners.row(w);
+        probes.push_back((middle + i / 64.0 * (to - middle)).normalized());
+      }
+  Points directions(std::ssize(probes), 3);
+  for (size_t i = 0; i < probes.size(); ++i)
+    directions.row(static_cast<Eigen::Index>(i)) = probes[i];
+  const std::vector<SurfacePoint> located = current.locator().locate_all(directions);
+  const auto exact = nearest_on_facets(current.topology(), current.map(), directions, located);
+  const auto found = nearest_in_float32(current.topology(), at_radius_100(current.map().points),
+                                        at_radius_100(directions), located);
+  const auto place_of = [&](const SurfacePoint& place) {
+    Vector3 sum = Vector3::Zero();
+    for (int k = 0; k < 3; ++k)
+      sum += place.barycentric[k] * current.map().point(current.topology().vertex(place.face, k));
+    return sum;
+  };
+  for (size_t i = 0; i < found.size(); ++i) {
+    CHECK(found[i].barycentric.sum() == Approx(1));
+    CHECK((place_of(found[i]) - place_of(exact[i])).norm() < 1e-5);
   }
 }
 

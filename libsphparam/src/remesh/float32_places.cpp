@@ -2,6 +2,7 @@
 
 #include "remesh/float32_places.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -49,9 +50,11 @@ class FlatTriangle {
     const Vector side = corners[2] - corners[0];
     across_ = unit(side - along_ * dot(along_, side));
     for (std::size_t k = 0; k < 3; ++k) flat_[k] = in_plane(corners[k]);
+    has_area_ = twice_area(corners[1] - corners[0], side) > 0;
   }
 
   Place nearest(const Vector& p) const {
+    if (!has_area_) return nearest_of_sides(p);
     const Flat at = in_plane(p);
     bool inside = true;
     Place best;
@@ -66,6 +69,24 @@ class FlatTriangle {
   }
 
  private:
+  /// Of a triangle that is a line or a point in such numbers: it has no plane, and no inside.
+  Place nearest_of_sides(const Vector& p) const {
+    Place best = at_corner(p, 0);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3;
+      const Vector whole = corners_[j] - corners_[i];
+      const float size = length(whole);
+      if (size == 0) continue;
+      const float share = std::clamp(dot(p - corners_[i], unit(whole)) / size, 0.0F, 1.0F);
+      Place place;
+      place.distance = length(p - (corners_[i] + share * whole));
+      place.weights[i] = 1 - share;
+      place.weights[j] = share;
+      if (place.distance < best.distance) best = place;
+    }
+    return best;
+  }
+
   Flat in_plane(const Vector& p) const {
     const Vector from = p - corners_[0];
     return {dot(along_, from), dot(across_, from)};
@@ -117,6 +138,7 @@ class FlatTriangle {
     place.distance = length(p - found);
     place.weights = {twice_area(to[1], to[2]), twice_area(to[0], to[2]), twice_area(to[0], to[1])};
     const float sum = place.weights[0] + place.weights[1] + place.weights[2];
+    if (sum == 0) return nearest_of_sides(p);  // squares have vanished
     for (float& weight : place.weights) weight /= sum;
     return place;
   }
@@ -124,6 +146,7 @@ class FlatTriangle {
   std::array<Vector, 3> corners_;
   Vector along_, across_;
   std::array<Flat, 3> flat_;
+  bool has_area_ = false;
 };
 
 class Facets32 {
