@@ -40,6 +40,8 @@ double shown(double l) { return l <= 0.0031308 ? 12.92 * l : 1.055 * std::pow(l,
 TEST_CASE("resampling: over cells colours are means of light, in the unit of their type") {
   const double half = shown(0.5), quarter = shown(0.25 * light(0.2) + 0.75 * light(0.8));
   CHECK(colour(cell(0.5, 0.5), "red", ScalarType::Uint8, 0, 255) == std::round(255 * half));
+  for (const ScalarType type : {ScalarType::Int32, ScalarType::Int16, ScalarType::Uint32})
+    CHECK(colour(cell(0.5, 0.5), "red", type, 0, 255) == std::round(255 * half));
   CHECK(colour(cell(0.5, 0.5), "blue", ScalarType::Uint16, 0, 65535) ==
         Approx(65535 * half).margin(2));
   CHECK(colour(cell(0.5, 0.5), "green", ScalarType::Float32, 0, 1) == Approx(half).margin(1e-5));

@@ -108,11 +108,8 @@ std::optional<Attributes> light_and_alpha(const MeshFile& mesh) {
   Attributes colours = Attributes::Ones(mesh.mesh.vertex_count(), 4);
   colours.leftCols(3) = *light;
   if (const Property* alpha = mesh.find_vertex_property("alpha")) {
-    const double full = is_floating(alpha->type)            ? 1
-                        : alpha->type == ScalarType::Uint16 ? 65535
-                                                            : 255;
     for (Eigen::Index v = 0; v < colours.rows(); ++v)
-      colours(v, 3) = alpha->values[static_cast<size_t>(v)] / full;
+      colours(v, 3) = alpha->values[static_cast<size_t>(v)] / brightest(alpha->type);
   }
   return colours.cwiseMax(0).cwiseMin(1);
 }

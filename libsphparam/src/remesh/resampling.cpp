@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "io/attributes/appearance.h"
 #include "io/attributes/weightiest_label.h"
 #include "sphparam/parallel.h"
 #include "srgb_curves.h"
@@ -68,18 +69,6 @@ double in_type(ScalarType type, double value) {
   return std::round(value);
 }
 
-/// Of a colour as stored, to sRGB in [0, 1].
-double colour_unit(ScalarType type) {
-  switch (type) {
-    case ScalarType::Uint8:
-      return 255;
-    case ScalarType::Uint16:
-      return 65535;
-    default:
-      return 1;
-  }
-}
-
 }  // namespace
 
 std::vector<double> resample(const Resampling& resampling, const double* values, int width) {
@@ -101,7 +90,7 @@ std::vector<double> resample_property(const Resampling& resampling, const Proper
 
 std::vector<double> resample_colour(const Resampling& resampling, const Property& channel) {
   const SrgbCurves& curves = SrgbCurves::get();
-  const double unit = colour_unit(channel.type);
+  const double unit = brightest(channel.type);
   const auto stored = [&](Vertex v) { return channel.values[static_cast<size_t>(v)]; };
   const auto light = [&](Vertex v) {
     return static_cast<double>(curves.to_linear(static_cast<float>(stored(v) / unit)));

@@ -37,16 +37,18 @@ std::optional<CornerTexcoords> texcoords_of(const MeshFile& file) {
   return corners;
 }
 
+double brightest(ScalarType type) {
+  return is_floating(type) ? 1 : type == ScalarType::Uint16 ? 65535 : 255;
+}
+
 std::optional<Points> vertex_colours(const MeshFile& file) {
   const auto rgb = columns<3>(file, {"red", "green", "blue"});
   if (!rgb) return std::nullopt;
   Points colours(file.mesh.vertex_count(), 3);
   for (int c = 0; c < 3; ++c) {
     const Property& property = *(*rgb)[static_cast<size_t>(c)];
-    const bool real = property.type == ScalarType::Float32 || property.type == ScalarType::Float64;
-    const double full = real ? 1 : property.type == ScalarType::Uint16 ? 65535 : 255;
     for (Eigen::Index v = 0; v < colours.rows(); ++v) {
-      colours(v, c) = property.values[static_cast<size_t>(v)] / full;
+      colours(v, c) = property.values[static_cast<size_t>(v)] / brightest(property.type);
     }
   }
   return colours;

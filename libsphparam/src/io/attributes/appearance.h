@@ -15,6 +15,9 @@ bool has_texcoords(const MeshFile& file);
 /// nothing where there are none.
 std::optional<CornerTexcoords> texcoords_of(const MeshFile& file);
 
+/// What stands for 1 in a colour of this type: 65535 in uint16, 255 in other whole numbers.
+double brightest(ScalarType type);
+
 /// #V×3 colours of the vertices, in sRGB, 1 the brightest of their type; nothing where there are
 /// none.
 std::optional<Points> vertex_colours(const MeshFile& file);

@@ -10,11 +10,6 @@ double linear(double stored) {
   return static_cast<double>(SrgbCurves::get().to_linear(static_cast<float>(stored)));
 }
 
-/// What numbers of this type have for 1.
-double full(const Property& property) {
-  return is_floating(property.type) ? 1 : property.type == ScalarType::Uint16 ? 65535 : 255;
-}
-
 }  // namespace
 
 std::optional<Points> linear_colours(const MeshFile& file) {
@@ -41,7 +36,7 @@ std::optional<CornerLight> corner_light(const MeshFile& file) {
     }
     if (!light.of_corners)
       column = Eigen::Map<const VectorX>(property->values.data(), light.rows.rows());
-    column /= full(*property);
+    column /= brightest(property->type);
     if (c < 3) column = column.unaryExpr([](double stored) { return linear(stored); }).eval();
   }
   return light;
