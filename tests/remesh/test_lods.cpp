@@ -92,6 +92,25 @@ TEST_CASE(
   CHECK_FALSE(levels_of_detail(whole, grids, {.measure = false}).front().distance);
 }
 
+TEST_CASE("levels of detail: areas of a grid are the first one's, and of its size") {
+  const TriangleMesh ball = tests::icosphere(3);
+  const MappedMesh source({.file = {.mesh = ball}, .map = {ball.positions}});
+  const std::vector<GridSpec> grids = {parse_grid("ico:2"), parse_grid("ico:1")};
+  const auto levels = [&](Eigen::Index areas, bool made_before) {
+    const LevelOptions options{
+        .sample = SampleMode::AdapBaryArea, .grid_areas = VectorX::Ones(areas), .measure = false};
+    const std::span<const GridSpec> all = grids;
+    return made_before
+               ? levels_of_detail(source, make_grid(grids[0]), all.subspan(1), options).size()
+               : levels_of_detail(source, all, options).size();
+  };
+  for (const bool made_before : {false, true}) {
+    CHECK(levels(162, made_before) == 2);
+    for (const Eigen::Index wrong : {42, 161})
+      CHECK_THROWS_AS(levels(wrong, made_before), std::invalid_argument);
+  }
+}
+
 TEST_CASE("levels of detail: an unknown scheme is refused before any work") {
   const TriangleMesh ball = tests::icosphere(1);
   const MappedMesh source({.file = {.mesh = ball}, .map = {ball.positions}});

@@ -32,12 +32,13 @@ void fit_level(LevelOfDetail& level, const MappedMesh& source, const LevelOption
   level.fit = std::move(fit);
 }
 
-LevelOfDetail make_level(const MappedMesh& source, SphereGrid grid, const LevelOptions& options) {
-  const bool has_its_areas = options.grid_areas.size() == grid.directions.rows();
+/// The areas of a grid are the first one's.
+LevelOfDetail make_level(const MappedMesh& source, SphereGrid grid, const LevelOptions& options,
+                         bool is_first) {
   LevelOfDetail level{remesh(source, std::move(grid),
                              {.sample = options.sample,
                               .source_areas = options.source_areas,
-                              .grid_areas = has_its_areas ? options.grid_areas : VectorX(),
+                              .grid_areas = is_first ? options.grid_areas : VectorX(),
                               .transfer = options.transfer,
                               .threads = options.threads,
                               .progress = options.progress})};
@@ -65,7 +66,8 @@ void add_levels(std::vector<LevelOfDetail>& levels, const MappedMesh& source,
                 std::span<const GridSpec> grids, const LevelOptions& options) {
   for (const GridSpec& grid : grids) {
     report(options.progress, "level " + std::to_string(levels.size()), 0);
-    levels.push_back(make_level(source, make_grid(grid, {.threads = options.threads}), options));
+    levels.push_back(
+        make_level(source, make_grid(grid, {.threads = options.threads}), options, levels.empty()));
   }
   if (!options.measure) return;
   for (LevelOfDetail& level : levels) measure(level, source, options);
@@ -87,7 +89,7 @@ std::vector<LevelOfDetail> levels_of_detail(const MappedMesh& source, SphereGrid
                                             const LevelOptions& options) {
   require_domain(source, options);
   std::vector<LevelOfDetail> levels;
-  levels.push_back(make_level(source, std::move(finest), options));
+  levels.push_back(make_level(source, std::move(finest), options, true));
   add_levels(levels, source, coarser, options);
   return levels;
 }
@@ -117,7 +119,7 @@ std::vector<MappedMesh> quartered_meshes(const MappedMesh& source, int count,
     report(options.progress, "level " + std::to_string(level - 1), 0);
     const SphereGrid grid =
         make_grid({GridKind::IcosahedronCut, size, 0}, {.threads = options.threads});
-    const MappedMesh mesh = make_level(source, grid, unfitted).mesh;
+    const MappedMesh mesh = make_level(source, grid, unfitted, false).mesh;
     meshes.emplace_back(MappedMesh::Parts{.file = mesh.file(),
                                           .map = mesh.map(),
                                           .provenance = source.provenance(),
