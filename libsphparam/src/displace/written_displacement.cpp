@@ -17,6 +17,7 @@
 #include "option_domain.h"
 #include "remesh/distance_on_grid.h"
 #include "remesh/image_file.h"
+#include "remesh/texture_layout.h"
 #include "sphparam/io/certified_files.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/paths.h"

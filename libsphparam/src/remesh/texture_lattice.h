@@ -9,9 +9,6 @@
 
 namespace sphparam {
 
-/// The grid of a mesh. Throws: std::invalid_argument for one that has no layout in an image.
-GridSpec spec_with_layout(const Remeshed& mesh);
-
 /// In texels from the top left; the middles of texels are whole numbers.
 using TexelPoint = Eigen::Vector2d;
 

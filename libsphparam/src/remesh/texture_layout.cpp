@@ -1,6 +1,6 @@
 // How large layouts are, and meshes with coordinates in them.
 
-#include "sphparam/remesh/texture_layout.h"
+#include "remesh/texture_layout.h"
 
 #include <array>
 #include <stdexcept>
