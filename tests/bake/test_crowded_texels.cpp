@@ -88,6 +88,26 @@ TEST_CASE("crowded texels: the mean over the part of the surface that a texel sh
   CHECK(greatest_error(image, means) < 0.01);
 }
 
+TEST_CASE("crowded texels: what is shown does not depend on how large the mesh is") {
+  MeshFile file;
+  file.mesh = lopsided();
+  const SphereMap map = normalised(file.mesh.positions);
+  Property heights{"height", ScalarType::Float64, {}};
+  for (const double z : map.points.col(2)) heights.values.push_back(std::sin(9 * z));
+  file.vertex_properties.push_back(heights);
+  for (const Interpolation interpolation : {Interpolation::Uv, Interpolation::Sphere}) {
+    const auto shown = [&](int exponent) {
+      MeshFile scaled = file;
+      scaled.mesh.positions *= std::ldexp(1.0, exponent);
+      const auto scene = scene_of(scaled, map);
+      return baked(
+          *scene, make_scalar(*scene, "height"),
+          {.width = width, .height = height, .interpolation = interpolation, .threads = 1});
+    };
+    for (const int exponent : {-533, 3, 533}) CHECK(shown(exponent) == shown(0));
+  }
+}
+
 TEST_CASE("crowded texels: by direction too, but near the poles, where a grid is no wedge") {
   const auto scene = sphere_scene(lopsided());
   const MappedMesh& source = *scene->source.mapped;

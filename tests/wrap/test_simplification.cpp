@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <random>
 
 #include "sphparam/mesh/mesh_defects.h"
@@ -56,6 +57,17 @@ TEST_CASE("simplification: what is few enough stays as it is, far from the origi
   TriangleMesh made = simplified(far, 200);
   made.positions.array() -= 1e6;
   CHECK(volume_of(made) == Approx(volume_of(simplified(icosphere(4), 200))).epsilon(0.01));
+}
+
+TEST_CASE("simplification: however large or small, the same triangles, at the same places") {
+  const TriangleMesh mesh = bumpy_cube(), made = simplified(mesh, 500);
+  for (const int exponent : {-199, -180, 3, 180, 230}) {
+    INFO(exponent);
+    const double size = std::ldexp(1.0, exponent);
+    const TriangleMesh other = simplified({size * mesh.positions, mesh.triangles}, 500);
+    CHECK(other.triangles == made.triangles);
+    CHECK(other.positions == size * made.positions);
+  }
 }
 
 TEST_CASE("simplification: whatever the shape, it stays closed and of genus 0") {

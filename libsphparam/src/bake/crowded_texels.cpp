@@ -66,11 +66,23 @@ struct Deposit {
   double weight;
 };
 
-/// Of what the two steps span on the surface.
-double area_of_step(const TriangleMesh& mesh, const SurfaceRun& run) {
+/// What positions are multiplied by before areas are taken of them, a power of two, so that no bit
+/// is lost: weights are relative, and squares must be numbers. By some of the positions: this is
+/// asked for every band.
+double to_unit_size(const Points& positions) {
+  constexpr int greatest = 1023;  // 2¹⁰²⁴ is infinite, and subnormal coordinates ask for more
+  constexpr Eigen::Index enough = 1000;
+  double extent = 0;
+  for (Eigen::Index i = 0; i < positions.rows(); i += 1 + positions.rows() / enough)
+    extent = std::max(extent, positions.row(i).cwiseAbs().maxCoeff());
+  return extent > 0 ? std::ldexp(1.0, std::min(greatest, -std::ilogb(extent))) : 1;
+}
+
+/// Of what the two steps span on the surface, at unit size.
+double area_of_step(const TriangleMesh& mesh, double scale, const SurfaceRun& run) {
   Vector3 step = Vector3::Zero(), below = Vector3::Zero();
   for (int k = 0; k < 3; ++k) {
-    const Vector3 corner = mesh.position(mesh.triangles(run.face, k));
+    const Vector3 corner = scale * mesh.position(mesh.triangles(run.face, k));
     step += run.step[k] * corner;
     below += run.below[k] * corner;
   }
@@ -172,7 +184,6 @@ class Collector {
                          .weight = area * density});
   }
 
-  /// At about unit size: weights are relative, and squares must be numbers.
   double surface_area(Face f) const {
     const auto corner = [&](int k) -> Vector3 {
       return scale_ * target_.positions.row(target_.chart.triangles(f, k));
@@ -180,18 +191,8 @@ class Collector {
     return (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm() / 2;
   }
 
-  /// By some of the positions: this is asked for every band.
-  static double to_unit_size(const Points& positions) {
-    constexpr int greatest = 1023;  // 2¹⁰²⁴ is infinite, and subnormal coordinates ask for more
-    constexpr Eigen::Index enough = 1000;
-    double extent = 0;
-    for (Eigen::Index i = 0; i < positions.rows(); i += 1 + positions.rows() / enough)
-      extent = std::max(extent, positions.row(i).cwiseAbs().maxCoeff());
-    return extent > 0 ? std::ldexp(1.0, std::min(greatest, -std::ilogb(extent))) : 1;
-  }
-
   const BakeTarget& target_;
-  double scale_ = to_unit_size(target_.positions);  // a power of two: no bit is lost
+  double scale_ = to_unit_size(target_.positions);
   const TexelFinder& finder_;
   const TexelOwners& owners_;
   int band_, width_;
@@ -294,6 +295,8 @@ void gather_grids(const BakeScene& scene, const TexelFinder& finder, int band,
   const CalmWalls* walls = calm ? scene.walls.get() : nullptr;
   const std::vector<GridSize> grids = grids_of(walls, finder.owners(), band, centres);
   std::vector<SurfaceRun>& runs = gatherer.gathered.points.runs;
+  const TriangleMesh& mesh = scene.source.mesh();
+  const double scale = to_unit_size(mesh.positions);
   std::vector<double> areas;
   size_t i = 0;
   for (const TexelRun& run : centres.places) {
@@ -306,7 +309,7 @@ void gather_grids(const BakeScene& scene, const TexelFinder& finder, int band,
       finder.grid(place, size, centres.runs[i].face, runs);
       areas.clear();
       for (size_t s = first; s < runs.size(); ++s)
-        areas.push_back(area_of_step(scene.source.mesh(), runs[s]));
+        areas.push_back(area_of_step(mesh, scale, runs[s]));
       place.count = size.count();
       place.step = {0, 0};  // all of them show what the texel's middle is to be lit by
       gatherer.gathered.points.places.push_back(place);

@@ -7,10 +7,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include "mesh/unit_size.h"
 #include "wrap/quadric.h"
 
 namespace sphparam {
@@ -267,6 +269,11 @@ class Simplifier {
 
 TriangleMesh simplified(TriangleMesh sphere, long triangles, const Progress& progress) {
   if (sphere.face_count() <= triangles) return sphere;
+  if (std::optional<Rescaled> unit = at_unit_size(sphere)) {  // sixth powers must be numbers
+    TriangleMesh made = simplified(std::move(unit->mesh), triangles, progress);
+    for (double& x : made.positions.reshaped()) x = std::ldexp(x, unit->exponent);
+    return made;
+  }
   Simplifier simplifier(std::move(sphere));
   simplifier.run(triangles, progress);
   return simplifier.result();
