@@ -1,14 +1,18 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <new>
 #include <sstream>
 #include <string>
+#include <string_view>
 
 #include "image/image_codec.h"
 #include "image/open_module.h"
@@ -231,6 +235,38 @@ TEST_CASE("image codec: a truncated or a bomb-like file is an error, never a cra
   const std::uint32_t checksum = crc(bomb, 12, 29);  // of IHDR's name and content
   for (size_t k = 0; k < 4; ++k) bomb[29 + k] = static_cast<char>(checksum >> (24 - 8 * k));
   CHECK_THROWS_WITH(decode_image(bomb, "bomb.png"), Contains("far larger"));
+}
+
+TEST_CASE("image codec: the pixels of an EXR lie where its display window has them") {
+  const Image image = ramp(4, 2, 3, 24);
+  const std::vector<char> bytes =
+      encode_image(image, ImageFormat::Exr, {.sample_type = SampleType::Float});
+  const auto shown_in = [&](const std::array<std::int32_t, 4>& window) {
+    using namespace std::string_view_literals;
+    constexpr std::string_view head = "displayWindow\0box2i\0\x10\0\0\0"sv;
+    std::vector<char> changed = bytes;
+    const auto at = std::search(changed.begin(), changed.end(), head.begin(), head.end());
+    REQUIRE(at != changed.end());
+    std::memcpy(&*at + head.size(), window.data(), sizeof window);
+    return decode_image(changed, "window.exr");
+  };
+  CHECK(same_pixels(shown_in({0, 0, 3, 1}), image));
+  const Image wide = shown_in({-1, -1, 5, 1});
+  REQUIRE(wide.width == 7);
+  REQUIRE(wide.height == 3);
+  for (int y = 0; y < 3; ++y) {
+    for (int x = 0; x < 7; ++x) {
+      INFO(x << ", " << y);
+      const bool there = y > 0 && x > 0 && x < 5;
+      for (int c = 0; c < 3; ++c)
+        CHECK(wide.pixel(x, y)[c] == (there ? image.pixel(x - 1, y - 1)[c] : 0));
+    }
+  }
+  const Image part = shown_in({2, 1, 2, 1});
+  CHECK(part.pixels == std::vector<float>(image.pixel(2, 1), image.pixel(2, 1) + 3));
+  CHECK(shown_in({9, 9, 10, 9}).pixels == std::vector<float>(6, 0));
+  CHECK(shown_in({0, 5, 3, 6}).pixels == std::vector<float>(24, 0));
+  CHECK_THROWS_WITH(shown_in({0, 0, 1 << 20, 1 << 20}), Contains("limit"));
 }
 
 TEST_CASE("image codec: files are written and read by name, wrong names and types are refused") {

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "bake/image_level.h"
+#include "image/integer_sample.h"
 #include "number_text.h"
 #include "sphparam/bake/bake_errors.h"
 #include "srgb_curves.h"
@@ -70,7 +70,6 @@ template <class Sample>
 std::vector<Sample> integers(const float* values, size_t count, const SurfaceField& field) {
   std::vector<Sample> samples(count);
   const auto [low, high] = ends_of(field);
-  constexpr double full = std::numeric_limits<Sample>::max();
   const double base = low, scale = high > low ? 1 / (high - low) : 0;
   const SrgbCurves& curves = SrgbCurves::get();
   const bool colour = field.kind == FieldKind::Colour;
@@ -81,7 +80,7 @@ std::vector<Sample> integers(const float* values, size_t count, const SurfaceFie
     const double x = i % channels >= proper       ? value
                      : colour && i % channels < 3 ? static_cast<double>(curves.to_srgb(values[i]))
                                                   : (value - base) * scale;
-    samples[i] = x > 0 ? static_cast<Sample>(std::min(x, 1.0) * full + 0.5) : Sample{0};
+    samples[i] = integer_sample<Sample>(x);
   }
   return samples;
 }
@@ -130,7 +129,8 @@ void BakedFile::write_level_rows(const float* values, int rows) {
   }
 }
 
-/// Of a texel one value is enough; what is no number lies nowhere, and half a step is rounding.
+/// Of a texel one value is enough; what is no number lies nowhere, as what is no surface, and half
+/// a step is rounding.
 void BakedFile::count_beyond(const float* values, int rows) {
   texels_ += std::int64_t{rows} * options_.width;
   if (!is_integer(options_.sample_type) || field_.kind != FieldKind::Data || !field_.range) return;
@@ -140,6 +140,7 @@ void BakedFile::count_beyond(const float* values, int rows) {
   const int channels = field_.channels, proper = field_.proper_channels();
   for (std::int64_t i = 0; i < std::int64_t{rows} * options_.width; ++i) {
     const float* const texel = values + i * channels;
+    if (field_.has_coverage && !(texel[proper] > 0)) continue;
     beyond_ += std::any_of(texel, texel + proper, [&, least = low, most = high](float x) {
       return x < least - margin || x > most + margin;
     });

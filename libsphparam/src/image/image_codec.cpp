@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 #include <new>
 #include <system_error>
 
 #include "image/bmp.h"
 #include "image/image_writer.h"
+#include "image/integer_sample.h"
 #include "image/open_module.h"
 #include "image/sinks.h"
 #include "image/targa.h"
@@ -38,7 +38,7 @@ const char* format_of(const std::vector<char>& bytes) {
   if (head.starts_with("\xff\xd8\xff"sv)) return "jpeg";
   if (head.starts_with("II*\0"sv) || head.starts_with("MM\0*"sv)) return "tiff";
   if (head.starts_with("II+\0"sv) || head.starts_with("MM\0+"sv)) return "tiff";  // BigTIFF
-  if (head.starts_with("\x76\x2f\x31\x01"sv)) return "openexr";
+  if (is_exr(head)) return "openexr";
   if (head.starts_with("RIFF"sv) && head.ends_with("WEBP"sv)) return "webp";
   return nullptr;
 }
@@ -51,14 +51,10 @@ Decoder decoder_of(std::string_view bytes) {
   return looks_like_targa(bytes) ? decode_targa : nullptr;
 }
 
-/// Clamped to [0, 1]; what is no number becomes 0.
 template <class Sample>
 std::vector<Sample> integers(const float* values, size_t count) {
-  constexpr float full = std::numeric_limits<Sample>::max();
   std::vector<Sample> samples(count);
-  std::transform(values, values + count, samples.begin(), [](float x) {
-    return x > 0 ? static_cast<Sample>(std::min(x, 1.0F) * full + 0.5F) : Sample{0};
-  });
+  std::transform(values, values + count, samples.begin(), integer_sample<Sample>);
   return samples;
 }
 
@@ -91,6 +87,8 @@ std::vector<char> read_bytes(const std::string& path, const ImageLimits& limits)
 bool is_image(const std::vector<char>& bytes) {
   return format_of(bytes) || decoder_of({bytes.data(), bytes.size()});
 }
+
+bool is_exr(std::string_view bytes) { return bytes.starts_with("\x76\x2f\x31\x01"); }
 
 Image decode_image(const std::vector<char>& bytes, std::string_view name, const ImageLimits& limits,
                    ImageTexts* texts) {

@@ -43,6 +43,11 @@ Image decode_image(const std::vector<char>& bytes, std::string_view name,
 
 /// Whether bytes begin as those of an image that is read.
 bool is_image(const std::vector<char>& bytes);
+/// Whether they begin as those of an EXR, whose colours are linear; all others hold sRGB.
+bool is_exr(std::string_view bytes);
+inline bool is_exr(const std::vector<char>& bytes) {
+  return is_exr(std::string_view(bytes.data(), bytes.size()));
+}
 
 /// The bytes of an image file, read back as `ImageWriter` does; in integers clamped to [0, 1].
 /// Ensures: same bytes for the same input (EXR carries the time SOURCE_DATE_EPOCH, or 1970).

@@ -61,6 +61,12 @@ struct ImageWriter::State {
   };
   std::vector<Level> levels = {};
 
+  /// Gives an image that is not closed up, also where the writer throws before there is one.
+  ~State() {
+    file = {};
+    if (image) image_codecs().close(image, 1, append_text, &error);
+  }
+
   static int write(void* context, std::int64_t offset, const void* bytes, size_t size) {
     auto& state = *static_cast<State*>(context);
     if (!state.file.write) return 0;  // given up: whoever took the bytes may be gone
@@ -245,10 +251,7 @@ ImageWriter::ImageWriter(const ImageFileOptions& options, ImagePlace file)
   state_->add_level(options.width, options.height);
 }
 
-ImageWriter::~ImageWriter() {
-  state_->file = {};
-  if (state_->image) image_codecs().close(state_->image, 1, append_text, &state_->error);
-}
+ImageWriter::~ImageWriter() = default;
 
 void ImageWriter::write_rows(const void* samples, int rows) {
   const int failed = image_codecs().write_rows(state_->image, state_->next_row, rows, samples,

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "image/image_codec.h"
+#include "image/integer_sample.h"
 #include "image/open_module.h"
 #include "image/sinks.h"
 
@@ -15,10 +16,6 @@ namespace sphparam {
 namespace {
 
 using Samples = std::vector<std::uint8_t>;
-
-std::uint8_t sample_of(float x) {
-  return x > 0 ? static_cast<std::uint8_t>(std::min(x, 1.0F) * 255 + 0.5F) : std::uint8_t{0};
-}
 
 /// RGB, or RGBA where there is alpha.
 Samples colours_of(const Image& image) {
@@ -29,8 +26,9 @@ Samples colours_of(const Image& image) {
   samples.reserve(texels * (alpha ? 4 : 3));
   for (std::size_t i = 0; i < texels; ++i) {
     const float* const texel = &image.pixels[i * static_cast<std::size_t>(channels)];
-    for (int k = 0; k < 3; ++k) samples.push_back(sample_of(texel[grey ? 0 : k]));
-    if (alpha) samples.push_back(sample_of(texel[channels - 1]));
+    for (int k = 0; k < 3; ++k)
+      samples.push_back(integer_sample<std::uint8_t>(texel[grey ? 0 : k]));
+    if (alpha) samples.push_back(integer_sample<std::uint8_t>(texel[channels - 1]));
   }
   return samples;
 }
@@ -46,7 +44,8 @@ void require_kept(const std::vector<char>& bytes, const Samples& meant, const Sp
     const std::size_t texel = i / channels, channel = i % channels;
     if (channel < 3 && !image.lossless) continue;
     const std::uint8_t value =
-        channel < there ? sample_of(found.pixels[texel * there + channel]) : std::uint8_t{255};
+        channel < there ? integer_sample<std::uint8_t>(found.pixels[texel * there + channel])
+                        : std::uint8_t{255};
     if (value != meant[i]) throw ImageError("the WebP image, read back, differs");
   }
 }

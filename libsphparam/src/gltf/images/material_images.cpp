@@ -20,8 +20,6 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t most_bytes = std::uint64_t{1} << 31;
 
-bool is_exr(std::string_view bytes) { return bytes.starts_with("\x76\x2f\x31\x01"); }
-
 /// "statue_normal-tangent" ends in "normal-tangent".
 bool is_named(const std::string& stem, const std::string& map) {
   if (!stem.ends_with(map)) return false;

@@ -81,6 +81,36 @@ std::string refusal(const WebpHead& head, int64_t max_megabytes, int max_channel
   return refusal(spec, any_size, max_megabytes, max_channels);
 }
 
+/// Whether an EXR has pixels for another part of the plane than the one that is to be seen.
+bool has_other_window(const OIIO::ImageSpec& spec, std::string_view format) {
+  return format == "openexr" && (spec.x != spec.full_x || spec.y != spec.full_y ||
+                                 spec.width != spec.full_width || spec.height != spec.full_height);
+}
+
+/// What is to be seen of it: of any size, however few bytes the pixels are that it has.
+OIIO::ImageSpec seen_spec(const OIIO::ImageSpec& spec) {
+  OIIO::ImageSpec seen = spec;
+  seen.width = spec.full_width;
+  seen.height = spec.full_height;
+  return seen;
+}
+
+/// Puts the pixels where they are to be seen; black, without alpha, where there are none.
+void place(const std::vector<float>& pixels, const OIIO::ImageSpec& spec, float* seen) {
+  const auto channels = static_cast<int64_t>(spec.nchannels);
+  std::fill_n(seen, int64_t{spec.full_width} * spec.full_height * channels, 0.0F);
+  const int64_t right = int64_t{spec.x} - spec.full_x, down = int64_t{spec.y} - spec.full_y;
+  const int64_t first = std::max<int64_t>(0, right),
+                last = std::min<int64_t>(spec.full_width, right + spec.width);
+  if (first >= last) return;
+  for (int64_t row = 0; row < spec.height; ++row) {
+    if (row + down < 0 || row + down >= spec.full_height) continue;
+    std::copy_n(&pixels[static_cast<size_t>((row * spec.width + first - right) * channels)],
+                (last - first) * channels,
+                seen + ((row + down) * spec.full_width + first) * channels);
+  }
+}
+
 void tell_texts(const OIIO::ImageSpec& spec, SphparamTextSink text, void* context) {
   for (const OIIO::ParamValue& value : spec.extra_attribs) {
     const bool is_text = value.type() == OIIO::TypeDesc::STRING;
@@ -112,12 +142,21 @@ int decode(const char* format, const char* bytes, size_t size, int64_t max_megab
   if (!input->open(std::string("memory.") + format, spec, config)) return fail(input->geterror());
   const std::string refused = refusal(spec, size, max_megabytes, max_channels);
   if (!refused.empty()) return fail(refused);
+  const bool is_placed = has_other_window(spec, format);
+  const OIIO::ImageSpec seen = is_placed ? seen_spec(spec) : spec;
+  constexpr size_t any_size = std::numeric_limits<int64_t>::max();
+  const std::string too_large = refusal(seen, any_size, max_megabytes, max_channels);
+  if (!too_large.empty()) return fail(too_large);
   if (text) tell_texts(spec, text, text_context);
-  float* pixels = room(room_context, spec.width, spec.height, spec.nchannels);
+  float* const pixels = room(room_context, seen.width, seen.height, seen.nchannels);
   if (!pixels) return fail(sphparam_image_no_memory);
-  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels)) {
+  std::vector<float> apart;
+  if (is_placed) apart.resize(spec.image_pixels() * static_cast<size_t>(spec.nchannels));
+  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT,
+                         is_placed ? apart.data() : pixels)) {
     return fail(input->geterror());
   }
+  if (is_placed) place(apart, spec, pixels);
   return 0;
 } catch (const std::exception& e) {
   tell(error, error_context, words_of(e));
