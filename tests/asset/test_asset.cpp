@@ -158,6 +158,27 @@ TEST_CASE(
   CHECK_THROWS_AS(whole_surface(source_of(icosphere(1)), wrong), std::invalid_argument);
 }
 
+TEST_CASE("whole surface: vertices of no triangle do not make a wrap coarser") {
+  const WholeSurface plain = whole_surface(source_of(two_balls()), coarse());
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  // Of a triangle without a place, and of none at all.
+  for (const double place : {nan, 0.0}) {
+    TriangleMesh balls = two_balls();
+    const Eigen::Index count = balls.vertex_count(), faces = balls.face_count();
+    balls.positions.conservativeResize(count + 3, 3);
+    balls.positions.bottomRows(3) << 0, 0, 0, 1000, 0, 0, place, 0, 0;
+    if (std::isnan(place)) {
+      balls.triangles.conservativeResize(faces + 1, 3);
+      balls.triangles.row(faces) << static_cast<Vertex>(count), static_cast<Vertex>(count + 1),
+          static_cast<Vertex>(count + 2);
+    }
+    const WholeSurface wrapped = whole_surface(source_of(balls), coarse());
+    CHECK(wrapped.by == WholeBy::Wrap);
+    CHECK(wrapped.done == plain.done);
+    CHECK(wrapped.mapped.mesh().positions == plain.mapped.mesh().positions);
+  }
+}
+
 TEST_CASE(
     "remake asset: a wrap shows what the materials of the asset say, and all files are there") {
   const Folder folder;
@@ -273,6 +294,40 @@ TEST_CASE("remake asset: a channel whose image cannot be read is told, the other
              Catch::StartsWith("not carried: half.png of material paint: broken: "));
   // Normals are the mesh's own, and without its image the light is dark.
   CHECK(made.baked.images.size() == 2);
+}
+
+TEST_CASE("remake asset: of images of one name each is judged by itself") {
+  const Folder folder;
+  MeshSource asset = painted(source_of(icosphere(3), "ball.obj"));
+  asset.file.corner_texcoords = CornerTexcoords::Zero(3 * asset.file.mesh.face_count(), 2);
+  const auto sound =
+      std::make_shared<const std::vector<char>>(encode_image(Image(8, 8, 3), ImageFormat::Png));
+  MaterialChannels& said = asset.file.channels[0];
+  said.emission = {.image = "tex.png", .bytes = sound, .problem = "it is moved too far"};
+  said.roughness = {.image = "tex.png", .bytes = std::make_shared<const std::vector<char>>(4, '?')};
+  said.metallic = {.image = "tex.png", .bytes = sound};
+  RemakeOptions options{.whole = coarse(), .width = 64};
+  options.page = false;
+  PendingFiles files;
+  const RemadeAsset made = remake_asset(asset, folder.path.string(), options, files);
+  CHECK(made.warnings ==
+        std::vector<std::string>{"not carried: tex.png of material paint: it is moved too far",
+                                 "not carried: tex.png of material paint: its format is not read"});
+  files.publish();
+  const Image orm = read_image(folder.path.string() + "/ball_orm.png");
+  CHECK(orm.pixel(5, 9)[1] == 1);  // of the factor
+  CHECK(orm.pixel(5, 9)[2] == 0);  // of the image
+}
+
+TEST_CASE("remake asset: an image that is left out needs no channels beside base colours") {
+  const Folder folder;
+  MeshSource asset = painted(source_of(icosphere(3), "ball.obj"));
+  asset.file.channels.clear();
+  asset.file.base_colours[0].image = "skin.png";
+  RemakeOptions options{.whole = coarse(), .width = 64};
+  options.page = false;
+  PendingFiles files;
+  CHECK(remake_asset(asset, folder.path.string(), options, files).warnings.size() == 1);
 }
 
 TEST_CASE("remake asset: images without texture coordinates are told, factors are kept") {

@@ -104,6 +104,85 @@ TEST_CASE("read_textures: of specular colour and glossiness an image is made, te
   CHECK(why_unusable(texture) == "it is not there");
 }
 
+TEST_CASE("read_textures: images of one name are told apart by folder, path and bytes") {
+  const auto grey = [](float value) {
+    Image image(1, 1, 3);
+    std::ranges::fill(image.pixels, value);
+    return std::make_shared<const std::vector<char>>(encode_image(image, ImageFormat::Png));
+  };
+  const MeshFile file = ball(true);
+  TextureReader reader(file, TexelKind::Number, 1);
+  const auto texel = [&](const MaterialTexture& texture) {
+    return reader.read(texture, "skin").image->levels()[0].texels[0];
+  };
+  const MaterialTexture white{.image = "tex.png", .bytes = grey(1)};
+  CHECK(texel(white) == 65535);
+  CHECK(texel({.image = "tex.png", .bytes = grey(0)}) == 0);
+  CHECK(reader.read(white, "a").image == reader.read(white, "b").image);  // decoded once
+
+  const std::filesystem::path place =
+      std::filesystem::temp_directory_path() / ("sphparam_names_" + std::to_string(getpid()));
+  for (const char* folder : {"a", "b"}) std::filesystem::create_directories(place / folder);
+  const auto write = [&](const char* path, float value) {
+    const std::shared_ptr<const std::vector<char>> bytes = grey(value);
+    write_file(place / path, {bytes->begin(), bytes->end()});
+  };
+  write("a/tex.png", 1);
+  write("b/tex.png", 0);
+  const auto in = [&](const std::string& folder, const std::string& path) {
+    return texel({.image = "tex.png", .folder = folder, .path = path});
+  };
+  CHECK(in(place, "a/tex.png") == 65535);
+  CHECK(in(place, "b/tex.png") == 0);
+  CHECK(in(place / "a", "tex.png") == 65535);
+  CHECK(in(place / "b", "tex.png") == 0);
+  std::filesystem::remove_all(place);
+}
+
+TEST_CASE("read_textures: a texture that cannot be used is refused although its image is known") {
+  const MeshFile file = ball(true);
+  TextureReader reader(file, TexelKind::Colour, 1);
+  MaterialTexture texture{.image = "tex.png"};
+  texture.bytes =
+      std::make_shared<const std::vector<char>>(encode_image(Image(1, 1, 3), ImageFormat::Png));
+  CHECK(reader.read(texture, "a").image);
+  texture.problem = "it is moved too far";
+  CHECK_THROWS_WITH(reader.read(texture, "b"), "material b, tex.png: it is moved too far");
+}
+
+TEST_CASE("read_textures: heights become normals as the texture repeats or ends at its borders") {
+  Image heights(4, 4, 1);
+  heights.pixel(0, 0)[0] = 1;
+  MaterialTexture bump{.image = "bump.png", .bump = 1};
+  bump.bytes = std::make_shared<const std::vector<char>>(encode_image(heights, ImageFormat::Png));
+  MaterialTexture clamped = bump;
+  clamped.wrap_s = Wrapping::Clamp;
+  const MeshFile file = ball(true);
+  TextureReader reader(file, TexelKind::Number, 1);
+  const auto slope_at_right = [&](const MaterialTexture& texture) {
+    return reader.read(texture, "skin").image->levels()[0].texels[size_t{4} * 3];
+  };
+  CHECK(slope_at_right(bump) < 20000);  // it rises to the right, where the image begins again
+  CHECK(slope_at_right(clamped) == Approx(32768).margin(1));
+}
+
+TEST_CASE("read_textures: colours of an EXR are linear, those of a PNG are sRGB") {
+  Image grey(1, 1, 3);
+  std::ranges::fill(grey.pixels, 0.5F);
+  const MeshFile file = ball(true);
+  const auto texel = [&](ImageFormat format, SampleType type) {
+    MaterialTexture texture{.image = "grey"};
+    texture.bytes = std::make_shared<const std::vector<char>>(
+        encode_image(grey, format, {.sample_type = type}));
+    return TextureReader(file, TexelKind::Colour, 1)
+        .read(texture, "skin")
+        .image->levels()[0]
+        .texels[0];
+  };
+  CHECK(texel(ImageFormat::Exr, SampleType::Float) == Approx(32768).margin(1));
+  CHECK(texel(ImageFormat::Png, SampleType::Uint16) == Approx(14027).margin(20));
+}
+
 TEST_CASE("read_textures: BMP and TGA are images of materials") {
   const std::string head = {0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 1, 0, 24, 0};
   const std::string tga = head + std::string("\0\xff\0", 3);

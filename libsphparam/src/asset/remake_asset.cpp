@@ -183,14 +183,16 @@ class Remaker {
 /// Takes images that cannot be used from the materials, which keep their factors; tells of each.
 std::vector<std::string> drop_unusable_images(MeshFile& file) {
   std::vector<std::string> told;
-  std::map<std::string, std::string> known;  // by the name of an image: why not
+  std::map<ImageOrigin, std::string> known;  // why not
   const std::string no_texcoords = "the mesh has no texture coordinates";
   const bool has_places = has_texcoords(file);
   const auto placeless = [&](const MaterialTexture& texture) {
     return !has_places && !texture.second && !texture.image.empty();
   };
   const auto cached = [&](const MaterialTexture& texture) {
-    const auto [found, is_new] = known.try_emplace(texture.image);
+    if (texture.image.empty()) return std::string();
+    if (!texture.problem.empty()) return texture.problem;
+    const auto [found, is_new] = known.try_emplace(origin_of(texture));
     if (is_new) found->second = why_unusable(texture);
     return found->second;
   };
@@ -199,7 +201,8 @@ std::vector<std::string> drop_unusable_images(MeshFile& file) {
     if (why.empty()) return;
     told.push_back("not carried: " + texture.image + " of material " + file.materials[material] +
                    ": " + why);
-    leave_out_image(texture, file.channels[material]);
+    static const MaterialChannels none;
+    leave_out_image(texture, material < file.channels.size() ? file.channels[material] : none);
   };
   const auto check_colour = [&](MaterialTexture& colour, size_t material) {
     const bool had_image = !colour.image.empty();

@@ -1,6 +1,7 @@
 #include "sphparam/texture/mesh_textures.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "image/image_codec.h"
 #include "io/attributes/appearance.h"
@@ -23,11 +24,13 @@ bool has_image(const MaterialTexture& colour) { return !colour.image.empty(); }
 /// A material of some face that lets through what is behind it; empty: none does.
 std::string see_through(const MeshFile& file) {
   const Property* const material = file.find_face_property("material");
-  for (std::size_t i = 0; material && i < std::min(file.channels.size(), file.materials.size());
-       ++i) {
-    if (file.channels[i].alpha_mode == AlphaMode::Opaque) continue;
-    if (std::ranges::count(material->values, static_cast<double>(i)) > 0) return file.materials[i];
-  }
+  const std::size_t count = std::min(file.channels.size(), file.materials.size());
+  if (!material || count == 0) return "";
+  std::vector<char> used(count, 0);
+  for (const double id : material->values)
+    if (id >= 0 && id < static_cast<double>(count)) used[static_cast<std::size_t>(id)] = 1;
+  for (std::size_t i = 0; i < count; ++i)
+    if (used[i] && file.channels[i].alpha_mode != AlphaMode::Opaque) return file.materials[i];
   return "";
 }
 

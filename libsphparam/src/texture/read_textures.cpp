@@ -67,25 +67,38 @@ Image normals_of_heights(const Image& heights, const MaterialTexture& said) {
 }
 
 /// Throws ImageError.
-Image image_of(const MaterialTexture& texture, const std::string& what) {
-  if (texture.image.empty()) return {};
+void require_no_problem(const MaterialTexture& texture, const std::string& what) {
   if (!texture.problem.empty()) throw ImageError(what + ": " + texture.problem);
-  std::vector<char> bytes;
-  try {
-    bytes = bytes_of(texture);
-  } catch (const std::runtime_error& error) {
-    throw ImageError(what + " cannot be read: " + error.what());
-  }
-  return decode_image(bytes, what);
 }
 
 /// Throws ImageError.
-DecodedTexture decode(const MaterialTexture& colour, const std::string& what, bool linear,
+std::vector<char> bytes_of(const MaterialTexture& texture, const std::string& what) {
+  require_no_problem(texture, what);
+  try {
+    return bytes_of(texture);
+  } catch (const std::runtime_error& error) {
+    throw ImageError(what + " cannot be read: " + error.what());
+  }
+}
+
+/// Throws ImageError.
+Image image_of(const MaterialTexture& texture, const std::string& what) {
+  return texture.image.empty() ? Image() : decode_image(bytes_of(texture, what), what);
+}
+
+/// Throws ImageError.
+DecodedTexture decode(const MaterialTexture& colour, const std::string& what, TexelKind kind,
                       int threads) {
-  Image image = colour.made_of ? metallic_roughness_image(
-                                     *colour.made_of, image_of(colour.made_of->diffuse, what),
-                                     image_of(colour.made_of->specular, what), linear, threads)
-                               : image_of(colour, what);
+  bool linear = kind == TexelKind::Number;
+  Image image;
+  if (const auto& parts = colour.made_of) {
+    image = metallic_roughness_image(*parts, image_of(parts->diffuse, what),
+                                     image_of(parts->specular, what), linear, threads);
+  } else {
+    const std::vector<char> bytes = bytes_of(colour, what);
+    linear |= is_exr(bytes);
+    image = decode_image(bytes, what);
+  }
   const bool heights = colour.bump != 0 && is_grey(image);
   if (heights) image = normals_of_heights(image, colour);
   return {std::make_shared<const TexturePyramid>(image, linear, threads), heights};
@@ -122,6 +135,10 @@ std::string why_unusable(const MaterialTexture& texture) try {
   return why.substr(0, why.find('\n'));
 }
 
+ImageOrigin origin_of(const MaterialTexture& texture) {
+  return {texture.folder, texture.path, texture.bytes, texture.made_of};
+}
+
 SourceTexture read_texture(const std::string& path, TextureWrap wrap, int threads) {
   const bool linear = extension_of(path) == ".exr";
   return {.image = std::make_shared<const TexturePyramid>(read_image(path), linear, threads),
@@ -138,9 +155,13 @@ SourceTexture TextureReader::read(const MaterialTexture& said, const std::string
   std::ranges::transform(said.factor, texture.factor.begin(),
                          [](double x) { return static_cast<float>(x); });
   if (said.image.empty()) return texture;
-  DecodedTexture& decoded = decoded_[{said.image, said.bump, said.made_of}];
   const std::string what = "material " + material + ", " + said.image;
-  if (!decoded.image) decoded = decode(said, what, kind_ == TexelKind::Number, threads_);
+  require_no_problem(said, what);
+  const bool wraps_count = said.bump != 0;
+  DecodedTexture& decoded =
+      decoded_[{origin_of(said), said.bump, wraps_count ? said.wrap_s : Wrapping::Repeat,
+                wraps_count ? said.wrap_t : Wrapping::Repeat}];
+  if (!decoded.image) decoded = decode(said, what, kind_, threads_);
   texture.image = decoded.image;
   if (said.bump != 0 && !decoded.heights) texture.factor[0] = static_cast<float>(said.bump);
   return texture;

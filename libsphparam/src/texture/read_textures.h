@@ -24,7 +24,13 @@ std::vector<SourceTexture> read_textures(const MeshFile& file, int threads);
 /// broken; empty where there is none, or nothing against it. Cost: that of decoding it.
 std::string why_unusable(const MaterialTexture& texture);
 
-/// Whether images hold colours, which are sRGB, or numbers.
+/// Folder, path, bytes and parts of an image, by which it is known from others: names are not
+/// enough, as libraries of several folders have images of the same name.
+using ImageOrigin = std::tuple<std::string, std::string, std::shared_ptr<const std::vector<char>>,
+                               std::shared_ptr<const SpecularGlossiness>>;
+ImageOrigin origin_of(const MaterialTexture& texture);
+
+/// Whether images hold colours, which are sRGB but for those of EXR, or numbers.
 enum class TexelKind { Colour, Number };
 
 /// An image in memory, and whether it was one of heights, of which normals were made.
@@ -48,10 +54,8 @@ class TextureReader {
   const MeshFile& file_;
   TexelKind kind_;
   int threads_;
-  /// By what makes an image what it is.
-  std::map<std::tuple<std::string, double, std::shared_ptr<const SpecularGlossiness>>,
-           DecodedTexture>
-      decoded_;
+  /// By what makes an image what it is; of heights the borders do too.
+  std::map<std::tuple<ImageOrigin, double, Wrapping, Wrapping>, DecodedTexture> decoded_;
 };
 
 }  // namespace sphparam
