@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "bake/baked_chart.h"
+#include "texture/baked_texts.h"
 
 using namespace sphparam;
 

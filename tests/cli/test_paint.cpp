@@ -121,9 +121,18 @@ TEST_CASE("paint: what cannot be done is said, with its exit code, and nothing i
   const Ended convention = paint({"--image", image, "-o", out, "--convention", "blendr"});
   CHECK(convention.code == 2);
   CHECK_THAT(convention.err, Contains("did you mean blender?"));
+  const std::string gis = folder / "gis.png";
+  write_image(gis, direction_image(16), {.metadata = {{"sphparam:convention", "gis"}}});
+  const Ended other = paint({"--image", gis, "-o", out});
+  CHECK(other.code == 2);
+  CHECK_THAT(other.err,
+             Contains("--convention: ") && Contains("gis.png is baked in the convention "
+                                                    "gis, and would be read in sphparam: "
+                                                    "convention gis reads it as it is"));
+  CHECK(paint({"--image", gis, "-o", "-", "--convention", "gis"}).code == 0);
   CHECK(paint({"--image", image, "-o", image}).code == 2);
   CHECK(paint({"-o", out}).code == 2);
-  CHECK(folder.names() == std::vector<std::string>{"broken.png", "image.png"});
+  CHECK(folder.names() == std::vector<std::string>{"broken.png", "gis.png", "image.png"});
 }
 
 TEST_CASE("paint: a picture that is not twice as wide as high is painted, with a warning") {

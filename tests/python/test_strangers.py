@@ -202,6 +202,9 @@ def test_an_image_that_does_not_fit_is_refused(mapped, low, tmp_path, monkeypatc
     with pytest.raises(ValueError, match="baked in the convention gis, and would be shown in sphparam"):
         mapped.export("a.glb", texture="gis.png")
     mapped.export("gis.glb", texture="gis.png", convention="gis")
+    with pytest.raises(ValueError, match="baked in the convention gis, and would be read in sphparam"):
+        mapped.paint("gis.png")
+    mapped.paint("gis.png", convention="gis")
     mapped.bake_files({"normal-object": "o.png"}, size=32)
     with pytest.raises(ValueError, match="o.png shows normal-object, and a normal map is of normal-tangent"):
         mapped.export("a.glb", normal_map="o.png")

@@ -1,10 +1,8 @@
 #pragma once
 
 #include <optional>
-#include <string_view>
 
 #include "image/image_codec.h"
-#include "sphparam/texture/convention.h"
 
 namespace sphparam {
 
@@ -13,16 +11,9 @@ namespace sphparam {
 /// would stand on the wrong ones there. `pole_wedges`: as `refine_poles` takes them.
 ImageTexts texts_of_chart(bool linear_in_uv, int pole_wedges);
 
-/// The text that an image's metadata has below this name of ours; empty: not there. JPEG and TIFF
-/// hold ours in one text, a line each.
-std::string_view baked_text(const ImageTexts& texts, std::string_view key);
-
 /// Into how many wedges the pole triangles are cut of the chart that an image was baked for;
 /// nothing for images that suit any chart: those of strangers, and those baked by direction.
 /// `texts`: all of the file's metadata.
 std::optional<int> pole_wedges_of(const ImageTexts& texts);
-
-/// The convention that an image says it was baked in; nothing for images of strangers.
-std::optional<Convention> baked_convention_of(const ImageTexts& texts);
 
 }  // namespace sphparam

@@ -28,6 +28,7 @@
 #include "sphparam/gltf/export.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/paths.h"
+#include "texture/baked_texts.h"
 
 namespace sphparam {
 

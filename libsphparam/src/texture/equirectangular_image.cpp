@@ -8,6 +8,7 @@
 #include "image/image_codec.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/sphere/spherical_coordinates.h"
+#include "texture/baked_texts.h"
 #include "texture/texture_pyramid.h"
 
 namespace sphparam {
@@ -92,7 +93,15 @@ std::string warning_of_shape(const std::string& path, int width, int height) {
 EquirectangularImage read_equirectangular(const std::string& path, Convention convention,
                                           int threads) {
   const bool linear = image_format_of(path) == ImageFormat::Exr;
-  return {std::make_shared<const TexturePyramid>(read_image(path), linear, threads), convention};
+  ImageTexts texts;
+  const Image image = read_image(path, {}, &texts);
+  if (const auto baked = baked_convention_of(texts); baked && *baked != convention) {
+    const std::string name = info_of(*baked).name;
+    throw ImageOfOtherConvention(display_name(path) + " is baked in the convention " + name +
+                                 ", and would be read in " + info_of(convention).name +
+                                 ": convention " + name + " reads it as it is");
+  }
+  return {std::make_shared<const TexturePyramid>(image, linear, threads), convention};
 }
 
 }  // namespace sphparam

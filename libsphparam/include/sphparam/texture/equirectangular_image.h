@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -47,8 +48,14 @@ class EquirectangularImage {
 /// is; empty: it is, or misses that by one texel.
 std::string warning_of_shape(const std::string& path, int width, int height);
 
+/// An image that says it was baked in another convention than the one it is to be read in.
+class ImageOfOtherConvention : public std::invalid_argument {
+ public:
+  using std::invalid_argument::invalid_argument;
+};
+
 /// Reads an EXR, whose name says so: linear light, or one of the other formats, which hold sRGB.
-/// Throws: ImageError. Cost: 11 bytes a texel.
+/// Throws: ImageError; ImageOfOtherConvention. Cost: 11 bytes a texel.
 EquirectangularImage read_equirectangular(const std::string& path,
                                           Convention convention = Convention::Sphparam,
                                           int threads = 0);

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "bake/baked_chart.h"
 #include "number_text.h"
 #include "sphparam/io/paths.h"
+#include "texture/baked_texts.h"
 
 namespace sphparam {
 

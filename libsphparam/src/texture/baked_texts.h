@@ -1,0 +1,18 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "image/image_codec.h"
+#include "sphparam/texture/convention.h"
+
+namespace sphparam {
+
+/// The text that an image's metadata has below this name of ours; empty: not there. JPEG and TIFF
+/// hold ours in one text, a line each.
+std::string_view baked_text(const ImageTexts& texts, std::string_view key);
+
+/// The convention that an image says it was baked in; nothing for images of strangers.
+std::optional<Convention> baked_convention_of(const ImageTexts& texts);
+
+}  // namespace sphparam
