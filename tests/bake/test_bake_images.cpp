@@ -51,6 +51,15 @@ MappedMesh egg(int level, double aside = 0) {
   return MappedMesh({.file = std::move(file), .map = std::move(map), .name = "egg"});
 }
 
+/// Of it a cap about the north pole is what closes a hole.
+MeshFile with_cap(MeshFile file) {
+  FillerMarks fillers;
+  for (Face f = 0; f < file.mesh.face_count(); ++f)
+    fillers.push_back(file.mesh.position(file.mesh.triangles(f, 0)).z() > 0.5 ? 1 : 0);
+  mark_fillers(file, fillers);
+  return file;
+}
+
 const BakeSettings small{.width = 32, .fields = {.rays = 4}, .threads = 1};
 
 /// The setting that is complained of.
@@ -218,6 +227,61 @@ TEST_CASE("bake images: labels are whole in the samples that they get, or refuse
   holds(16777216, "l.exr", SampleType::Float);
 }
 
+TEST_CASE("bake images: labels are whole where holes were closed, too, or refused") {
+  const Folder folder;
+  MappedMesh whole = egg(3);
+  MeshFile file = with_cap(whole.file());
+  Property label{"label", ScalarType::Int32, {}};
+  for (Vertex v = 0; v < file.mesh.vertex_count(); ++v) label.values.push_back(v);
+  file.set_vertex_property(std::move(label));
+  const MappedMesh source({.file = std::move(file), .map = whole.map(), .name = "egg"});
+  BakeSettings settings = small;
+  settings.depth = SampleType::Uint8;
+  CHECK_THROWS_WITH(bake(source, {{"scalar:label", folder / "l.png"}}, settings),
+                    Catch::StartsWith("depth: uint8 holds whole numbers up to 255 exactly"));
+  settings.depth = SampleType::Uint16;
+  CHECK(bake(source, {{"scalar:label", folder / "l.png"}}, settings).images[0].channels == 2);
+}
+
+TEST_CASE("bake images: ranges that are measured are those of the surface, without fillers") {
+  const Folder folder;
+  MappedMesh whole = egg(3);
+  MeshFile file = with_cap(whole.file());
+  // What closes the hole lies far inside, but for its border.
+  for (Vertex v = 0; v < file.mesh.vertex_count(); ++v)
+    if (file.mesh.positions(v, 2) > 0.9) file.mesh.positions.row(v) *= 0.01;
+  const MappedMesh source({.file = std::move(file), .map = whole.map(), .name = "egg"});
+  const BakeReport report = bake(source, {{"radius", folder / "r.png"}}, small);
+  REQUIRE(report.images[0].range);
+  CHECK(report.images[0].range->first > 0.9);
+  CHECK(report.images[0].range->second == Approx(1.5).margin(0.02));
+  CHECK(report.images[0].beyond == 0);
+}
+
+TEST_CASE("bake images: numbers that float32 cannot hold are refused, what is none has no range") {
+  const Folder folder;
+  const auto with_scalars = [](double scale) {
+    MappedMesh whole = egg(2);
+    MeshFile file = whole.file();
+    Property scalar{"q", ScalarType::Float64, {}};
+    for (Vertex v = 0; v < file.mesh.vertex_count(); ++v) scalar.values.push_back(v * scale);
+    scalar.values[0] = std::nan("");
+    scalar.values[1] = HUGE_VAL;
+    file.set_vertex_property(std::move(scalar));
+    return MappedMesh({.file = std::move(file), .map = whole.map(), .name = "egg"});
+  };
+  const auto range = [&](double scale) {
+    return *bake(with_scalars(scale), {{"scalar:q", folder / "q.png"}}, small).images[0].range;
+  };
+  CHECK(range(1) == std::pair(2.0, 161.0));
+  CHECK(range(2e36).second == 161 * 2e36);
+  CHECK(range(1e-40).second == 161 * 1e-40);
+  CHECK_THROWS_WITH(range(1e40),
+                    Catch::StartsWith("scalar:q: its values are too large for numbers of 32 bits"));
+  CHECK_THROWS_WITH(range(1e-50),
+                    Catch::StartsWith("scalar:q: its values are too small for numbers of 32 bits"));
+}
+
 TEST_CASE("bake images: a target is on the same sphere, or the user is told") {
   const Folder folder;
   const MappedMesh source = egg(3);
@@ -253,12 +317,7 @@ TEST_CASE("bake images: values are had without files, as the engine has them") {
 
 TEST_CASE("bake: values have coverage where holes were closed, as images do") {
   MappedMesh whole = egg(3);
-  MeshFile file = whole.file();
-  FillerMarks fillers;  // a cap about the north pole
-  for (Face f = 0; f < file.mesh.face_count(); ++f)
-    fillers.push_back(file.mesh.position(file.mesh.triangles(f, 0)).z() > 0.5 ? 1 : 0);
-  mark_fillers(file, fillers);
-  const MappedMesh source({.file = std::move(file), .map = whole.map(), .name = "egg"});
+  const MappedMesh source({.file = with_cap(whole.file()), .map = whole.map(), .name = "egg"});
   float least = 1, greatest = 0;
   const std::vector<BakedField> fields =
       bake_values(source, {"position", "mask"}, small,

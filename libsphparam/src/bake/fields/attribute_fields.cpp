@@ -4,12 +4,15 @@
 #include "bake/fields/attribute_fields.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <memory>
 
 #include "bake/fields/linear_field.h"
 #include "io/attributes/source_attributes.h"
 #include "io/attributes/weightiest_label.h"
 #include "mesh/float32_size.h"
+#include "number_text.h"
 
 namespace sphparam {
 namespace {
@@ -20,9 +23,31 @@ std::string names_of(const std::vector<Property>& properties) {
   return names;
 }
 
+/// Of those that are numbers; 0 without any.
 std::pair<double, double> range_of(const std::vector<double>& values) {
-  const auto [least, greatest] = std::ranges::minmax_element(values);
-  return {*least, *greatest};
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  double least = infinity, greatest = -infinity;
+  for (const double value : values) {
+    if (!std::isfinite(value)) continue;
+    least = std::min(least, value);
+    greatest = std::max(greatest, value);
+  }
+  return least <= greatest ? std::pair(least, greatest) : std::pair(0.0, 0.0);
+}
+
+/// Texels are float32: beyond its greatest number all would be infinite, and where the greatest one
+/// is below its normal ones, digits are lost.
+void require_float32(const std::string& field, const std::pair<double, double>& range) {
+  using Float = std::numeric_limits<float>;
+  const double size = std::max(std::abs(range.first), std::abs(range.second));
+  const auto refuse = [&](const char* how, const char* bound, float most) {
+    throw FieldError(field + ": its values are too " + how +
+                     " for numbers of 32 bits, the greatest is " + short_number(size) +
+                     " and not at " + bound + " " + short_number(static_cast<double>(most)) +
+                     "; scale them");
+  };
+  if (size > static_cast<double>(Float::max())) refuse("large", "most", Float::max());
+  if (size > 0 && size < static_cast<double>(Float::min())) refuse("small", "least", Float::min());
 }
 
 /// Mixes the lower 24 bits one to one; 0 stays 0. Our own: each step, x ^ x >> 12 and a product
@@ -181,8 +206,10 @@ SurfaceField make_texcoords(const BakeScene& scene, const std::string&) {
 SurfaceField make_scalar(const BakeScene& scene, const std::string& name) {
   const MeshFile& file = scene.source.file();
   const auto described = [&name](const Property& property) {
-    return SurfaceField{
+    SurfaceField field{
         .name = "scalar:" + name, .about = "property " + name, .range = range_of(property.values)};
+    require_float32(field.name, *field.range);
+    return field;
   };
   if (const Property* property = file.find_vertex_property(name)) {
     return vertex_field(described(*property), file.mesh.triangles, *property);

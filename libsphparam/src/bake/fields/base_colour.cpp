@@ -1,5 +1,5 @@
-// Texture coordinates are linear on a face, so that along a run they take equal steps, and what a
-// texel covers of the texture is the same for all of the run.
+// texture · factor · colours of the vertices, in linear light; where alpha has a meaning, blended
+// faces are drawn over what lies behind them, and masked ones show what lies close behind.
 
 #include "bake/fields/base_colour.h"
 
