@@ -54,6 +54,12 @@ TEST_CASE("paint: triangles that overlap are told by their numbers in the file")
   for (Face face = 0; face < quads.mesh.face_count(); ++face) source.values.push_back(face / 2);
   quads.set_face_property(source);
   CHECK(overlap_warning(atlas, quads).find("(1 and 2, for one)") != std::string::npos);
+  atlas.rivals = {4, 5};
+  CHECK(overlap_warning(atlas, quads).find("(2 and itself, for one)") != std::string::npos);
+  atlas.rivals = {3, 3};
+  CHECK(overlap_warning(atlas, ball().file())
+            .find("(3 and itself in another repetition of the image, for one)") !=
+        std::string::npos);
 }
 
 TEST_CASE("paint: what an atlas cannot be is refused") {

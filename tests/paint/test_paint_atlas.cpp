@@ -103,6 +103,33 @@ TEST_CASE("paint_atlas: overlapping charts are counted and named, common edges a
   CHECK(whole.overlapping == 0);
 }
 
+TEST_CASE(
+    "paint_atlas: a triangle over several repetitions overlaps itself, and may be cancelled") {
+  const TexturePyramid pyramid(uniform_image(16, 0.5F));
+  MeshFile file = with_grid_atlas(octahedron());
+  file.corner_texcoords->setZero();
+  file.corner_texcoords->topRows<3>() << 0, 0, 8, 0, 0, 8;
+  const PaintedAtlas result = painted(file, pyramid, 50);
+  CHECK(result.painted == 2500);
+  CHECK(result.overlapping == 2500);
+  CHECK(result.rivals == std::array<Face, 2>{0, 0});
+  // A large one is looked at in bands: all of it, and not without asking between them.
+  CHECK(painted(file, pyramid, 400).painted == 400 * 400);
+  const auto paint = [&](int may_ask) {
+    int asked = 0;
+    const auto count = [&](std::string_view, double done) {
+      asked += done == 0;
+      return asked <= may_ask;
+    };
+    paint_atlas(file, normalised(file.mesh.positions),
+                EquirectangularImage(pyramid, Convention::Sphparam),
+                {.size = 400, .padding = 4, .progress = count});
+    return asked;
+  };
+  CHECK(paint(10) == 3);  // of 3200 × 3200 samples twice, and before the first row is painted
+  CHECK_THROWS_AS(paint(0), Cancelled);
+}
+
 TEST_CASE("paint_atlas: what cannot be painted for is refused") {
   const TexturePyramid pyramid(uniform_image(16, 0.5F));
   MeshFile file = with_grid_atlas(octahedron());

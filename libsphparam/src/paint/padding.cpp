@@ -55,11 +55,16 @@ class Painted {
     for (int c = 0; c < image_.channels; ++c) out[c] /= static_cast<float>(count);
   }
 
-  std::vector<Texel> all() {
+  /// The painted texels that others may be claimed around.
+  std::vector<Texel> border() {
     std::vector<Texel> texels;
     for (int y = 0; y < image_.height; ++y) {
       for (int x = 0; x < image_.width; ++x) {
-        if (ring({x, y})) texels.push_back({x, y});
+        const Texel texel{x, y};
+        bool is_border = false;
+        if (ring(texel))
+          for_each_neighbour(image_, texel, [&](const Texel& t) { is_border |= !ring(t); });
+        if (is_border) texels.push_back(texel);
       }
     }
     return texels;
@@ -91,7 +96,7 @@ void fill_rest_with_mean(Image& image, const std::vector<std::uint8_t>& rings) {
 
 void pad(Image& image, std::vector<std::uint8_t>& painted, int rings) {
   Painted texels(image, painted);
-  std::vector<Texel> rim = texels.all();
+  std::vector<Texel> rim = texels.border();
   for (int ring = 1; ring <= rings && !rim.empty(); ++ring) {
     rim = texels.claim_around(rim, static_cast<std::uint8_t>(ring + 1));
     for (const Texel& texel : rim) texels.fill(texel);

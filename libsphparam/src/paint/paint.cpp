@@ -62,10 +62,12 @@ std::string overlap_warning(const PaintedAtlas& atlas, const MeshFile& file) {
   const auto number = [&](Face face) {
     return source ? static_cast<long>(source->values[static_cast<size_t>(face)]) : long{face};
   };
+  const long first = number(atlas.rivals[0]), second = number(atlas.rivals[1]);
+  std::string other = first == second ? "itself" : std::to_string(second);
+  if (atlas.rivals[0] == atlas.rivals[1]) other += " in another repetition of the image";
   return "its texture coordinates overlap: " + std::to_string(atlas.overlapping) + " of " +
          std::to_string(atlas.painted) + " texels belong to two triangles or more (" +
-         std::to_string(number(atlas.rivals[0])) + " and " +
-         std::to_string(number(atlas.rivals[1])) + ", for one); the first has them";
+         std::to_string(first) + " and " + other + ", for one); the first has them";
 }
 
 std::string png_of(const PaintedAtlas& atlas, bool with_alpha) {

@@ -25,6 +25,7 @@ constexpr double least_inside = 1e-9;    // least weight of a centre inside: oth
 constexpr double most_repetitions = 8;   // across one triangle
 constexpr std::int64_t grain = 8;        // rows
 constexpr std::int64_t slice_size = 64;  // rows between two reports
+constexpr std::int64_t samples_at_once = std::int64_t{1} << 22;  // looked at between two reports
 
 /// A triangle's corners in texels, x to the right, y downwards, moved by whole images so that it
 /// begins in the first one.
@@ -41,6 +42,15 @@ struct AtlasTriangle {
     for (int k = 0; k < 3; ++k) {
       corners[static_cast<size_t>(k)] = {st(k, 0) * size, st(k, 1) * size, 0};
     }
+  }
+
+  /// The first row of its box, and how many columns that has.
+  int top() const {
+    return static_cast<int>(std::min({corners[0].y(), corners[1].y(), corners[2].y()}));
+  }
+  std::int64_t width() const {
+    const auto [least, most] = std::minmax({corners[0].x(), corners[1].x(), corners[2].x()});
+    return static_cast<std::int64_t>(most - least) + 1;
   }
 
   double area() const {
@@ -86,19 +96,33 @@ class AtlasPainter {
 
   AtlasTriangle triangle(Face f) const { return AtlasTriangle(texcoords_, f, options_.size); }
 
-  /// Texels that nobody has; those in a triangle already are overlaps, if inside both.
+  /// Texels that nobody has; those in a triangle already are overlaps, if inside both. Boxes of
+  /// triangles are looked at in bands of rows.
   void claim(Face f) {
     const AtlasTriangle t = triangle(f);
-    if (t.far.maxCoeff() > most_repetitions) {
+    if (!(t.far.array() <= most_repetitions).all()) {
       throw AtlasError("triangle " + std::to_string(f) +
                        ": its texture coordinates run over more than 8 repetitions of the image");
     }
-    const auto reach = [&](double far) { return static_cast<int>(std::ceil(far)) * options_.size; };
-    for_each_sample(t.corners[0], t.corners[1], t.corners[2], 0, 0, reach(t.far.x()),
-                    reach(t.far.y()), [&](int x, int y, const Eigen::Vector3d& weights) {
-                      claim_texel(f, index(x % options_.size, y % options_.size),
-                                  weights.minCoeff() > least_inside);
-                    });
+    const int right = static_cast<int>(std::ceil(t.far.x() * options_.size));
+    const int bottom = static_cast<int>(std::ceil(t.far.y() * options_.size));
+    const int rows = static_cast<int>(1 + samples_at_once / t.width());
+    for (int row = t.top(), next = 0; row < bottom; row = next) {
+      next = std::min(bottom, row + rows);
+      report_samples((next - row) * t.width());
+      for_each_sample(t.corners[0], t.corners[1], t.corners[2], 0, row, right, next,
+                      [&](int x, int y, const Eigen::Vector3d& weights) {
+                        claim_texel(f, index(x % options_.size, y % options_.size),
+                                    weights.minCoeff() > least_inside);
+                      });
+    }
+  }
+
+  void report_samples(std::int64_t count) {
+    samples_ += count;
+    if (samples_ < samples_at_once) return;
+    samples_ = 0;
+    report(options_.progress, "painting the atlas", 0);
   }
 
   void claim_texel(Face f, size_t texel, bool inside) {
@@ -165,6 +189,7 @@ class AtlasPainter {
   PaintedAtlas result_;
   std::vector<Face> owners_;          // of each texel; −1: none
   std::vector<std::uint8_t> inside_;  // its centre lies inside the owner, 2: and in another
+  std::int64_t samples_ = 0;          // looked at since the last report
 };
 
 }  // namespace

@@ -44,7 +44,7 @@ struct PaintedAtlas {
   Image image;           // sRGB and alpha
   long painted = 0;      // texels whose centre a triangle holds
   long overlapping = 0;  // of them, those inside more than one; the first triangle has them
-  std::array<Face, 2> rivals = {-1, -1};  // two triangles that overlap
+  std::array<Face, 2> rivals = {-1, -1};  // two triangles that overlap, or one and itself
 };
 
 /// Where triangles overlap, a warning for people, with two of them by their numbers in the file;
@@ -59,7 +59,8 @@ std::string overlap_warning(const PaintedAtlas& atlas, const MeshFile& file);
 /// Ensures: same values for any number of threads.
 /// Throws: std::invalid_argument for options outside their domains; AtlasError for a mesh without
 /// coordinates at its corners or vertices, for coordinates that are all of no area, and for
-/// triangles across more than 8 repetitions; Cancelled. Cost: one lookup a texel, 21 bytes.
+/// triangles across more than 8 repetitions; Cancelled. Cost: one lookup a texel, 21 bytes; and of
+/// each triangle 9 ns a texel of its box, in all repetitions that this runs over, on one thread.
 PaintedAtlas paint_atlas(const MappedMesh& mapped, const EquirectangularImage& image,
                          const AtlasOptions& options = {});
 
