@@ -181,6 +181,13 @@ TEST_CASE(
              Contains("pair.obj: not mended, and taken as it is: 2 separate components") &&
                  !Contains("ball.obj: not mended"));
   CHECK_THAT(measure({}).err, !Contains("not mended"));
+  const std::string twice = folder / "twice.obj";
+  const std::string text = obj_text(joined(icosphere(1), smaller, {3, 0, 0}));
+  write_bytes(twice, text + text.substr(text.rfind('f')));
+  CHECK_THAT(sphparam_program({"measure", twice, ball, "--samples", "2000", "--repair"}).err,
+             Contains("1 duplicate face removed") &&
+                 Contains("twice.obj: mended no farther than that, and taken so: 2 separate") &&
+                 !Contains("not mended"));
   CHECK_THAT(measure({"--component", "1"}).err, !Contains("not mended"));
   const Ended none = measure({"--component", "2"});
   CHECK(none.code == 2);

@@ -10,6 +10,7 @@
 #include "mesh/handles/short_loops.h"
 #include "sphparam/mesh/mesh_repair.h"
 #include "sphparam/mesh/topology.h"
+#include "support/joined.h"
 #include "support/test_meshes.h"
 #include "support/volume_surface.h"
 
@@ -266,6 +267,24 @@ TEST_CASE("handles: those longer than the limit stay, and the length that it tak
   CHECK(repair_mesh(mesh, by_length).inspection.is_sphere());
   by_length.longest_handle_length = 0.999 * cut.handles[0].length;
   CHECK(repair_mesh(mesh, by_length).inspection.genus == 1);
+}
+
+TEST_CASE("handles: how long one is is a matter of its own part, whatever else is in the file") {
+  const TriangleMesh torus = bumped_torus(16, 40, 0.3, 0.05, 3);
+  const double needed = repair_mesh(torus).shortest_handle_left;
+  REQUIRE(needed > RepairOptions{}.longest_handle);
+  for (const TriangleMesh& other : {torus, icosphere(1), noisy_ball(10, 0.1, 1)}) {
+    const TriangleMesh both = joined(torus, other, {100, 0, 0});
+    RepairOptions options = only_handles(RepairOptions{}.longest_handle);
+    const RepairedMesh kept = repair_mesh(both, options);
+    CHECK(kept.shortest_handle_left == Approx(needed));
+    for (const HandleLoop& loop : kept.handles) CHECK(loop.centre.x() > 50);
+    options.longest_handle = 1.001 * needed;
+    const RepairedMesh cut = repair_mesh(both, options);
+    check_cut(both, cut);
+    const auto is_of_torus = [](const HandleLoop& loop) { return loop.centre.x() < 50; };
+    CHECK(std::ranges::count_if(cut.handles, is_of_torus) == 1);
+  }
 }
 
 TEST_CASE("handles: where some are longer than the limit, others go all the same, and alike") {

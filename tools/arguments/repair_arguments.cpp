@@ -114,8 +114,8 @@ void declare_repair_options(Declaration& command, RepairArguments& arguments) {
               "Cut handles through, fill what goes through them, or whichever is shorter, or adds "
               "less area (default: shortest)")
       .parsed("--max-handle", "LENGTH", longest, "expected a length, as in 12.5 or 40%",
-              "Remove handles along loops of at most this length; % is of the bounding box's "
-              "diagonal (--repair: " +
+              "Remove handles along loops of at most this length; % is of the diagonal of its "
+              "part's bounding box (--repair: " +
                   short_number(100 * RepairOptions{}.longest_handle) + "%)")
       .group("Options");
 }

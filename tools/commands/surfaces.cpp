@@ -29,9 +29,10 @@ void tell_left(const MeshSource& source, Session& session) {
   std::vector<std::string> left;
   for (const MeshDefect& defect : source.inspection.defects)
     if (defect.fatal) left.push_back(defect.message);
-  if (!left.empty())
-    session.console.say("  " + display_name(source.path) +
-                        ": not mended, and taken as it is: " + joined(left, "; "));
+  if (left.empty()) return;
+  const std::string how = source.repairs.empty() ? ": not mended, and taken as it is: "
+                                                 : ": mended no farther than that, and taken so: ";
+  session.console.say("  " + display_name(source.path) + how + joined(left, "; "));
 }
 
 }  // namespace

@@ -179,7 +179,7 @@ class HandleLoop(NamedTuple):
     length: float
     """In units of the mesh."""
     share: float
-    """The same in diagonals of the bounding box."""
+    """The same in diagonals of the bounding box of its part."""
     area_added: float
     """Of both caps."""
     points: Floats

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, Callable, Dict, List, Mapping, Optional, Union
 
-from . import _core
+from . import _arrays, _core
 from ._losses import tell
 from ._mesh import Mesh, any_mesh
 from ._progress import Progress, told
@@ -83,8 +83,8 @@ def repair(
         ``"shortest"``; ``"cut"`` handles through, or ``"fill"`` what goes through them; ``"area"``:
         whichever adds less area.
     longest_handle
-        The longest loop that a handle may be cut along, in diagonals of the bounding box; in units of
-        the mesh instead where ``longest_handle_length`` is more than 0.
+        The longest loop that a handle may be cut along, in diagonals of the bounding box of the part
+        that it is in; in units of the mesh instead where ``longest_handle_length`` is more than 0.
     require_sphere
         False: what cannot be mended comes back as far as it was; :func:`inspect` says what it is.
 
@@ -165,7 +165,13 @@ def components(
 
 def _known(options: Dict[str, Any]) -> Dict[str, Any]:
     """Those that say something."""
-    return {name: value for name, value in options.items() if value is not None}
+    known = {name: value for name, value in options.items() if value is not None}
+    for name in ("weld_share", "weld_length"):
+        if name in known and not 0 <= _arrays.real(known[name], name) < float("inf"):
+            raise ValueError(f"{name}: from 0 is needed, not {known[name]!r}")
+    if {"weld_share", "weld_length"} <= known.keys():
+        raise ValueError("weld_share and weld_length contradict each other: both say how near is near")
+    return known
 
 
 def repair_options(wanted: Any) -> Optional[Dict[str, Any]]:

@@ -56,7 +56,7 @@ class LoopCutter {
   Vector3 into_left_ = Vector3::Zero(), into_right_ = Vector3::Zero();
 };
 
-HandleLoop account_of(const RepairState& state, const LoopToCut& loop, double diagonal) {
+HandleLoop account_of(const RepairState& state, const LoopToCut& loop) {
   HandleLoop account;
   account.filled = loop.filled;
   const size_t n = loop.vertices.size();
@@ -67,7 +67,7 @@ HandleLoop account_of(const RepairState& state, const LoopToCut& loop, double di
   }
   const double length = length_of(loop.vertices, state.shape);
   account.length = length * state.scale;
-  account.share = diagonal > 0 ? length / diagonal : 0;
+  account.share = loop.diagonal > 0 ? length / loop.diagonal : 0;
   return account;
 }
 
@@ -82,11 +82,10 @@ double area_from(const RepairState& state, Face first) {
 
 }  // namespace
 
-void cut_along(RepairState& state, const Topology& topology, const std::vector<LoopToCut>& loops,
-               double diagonal) {
+void cut_along(RepairState& state, const Topology& topology, const std::vector<LoopToCut>& loops) {
   const SurfaceCells surface(state);
   for (const LoopToCut& loop : loops) {
-    state.handles.push_back(account_of(state, loop, diagonal));
+    state.handles.push_back(account_of(state, loop));
     const Face first = state.face_count();
     const long crossings = LoopCutter(state, topology, loop.vertices, surface).run();
     state.handles.back().crossings = crossings;

@@ -13,8 +13,8 @@ namespace sphparam {
 struct LoopToCut {
   std::vector<Vertex> vertices;
   bool filled;
+  double diagonal;  // of the part that it is in
 };
-void cut_along(RepairState& state, const Topology& topology, const std::vector<LoopToCut>& loops,
-               double diagonal);
+void cut_along(RepairState& state, const Topology& topology, const std::vector<LoopToCut>& loops);
 
 }  // namespace sphparam

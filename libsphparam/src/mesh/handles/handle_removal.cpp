@@ -52,31 +52,44 @@ std::vector<EdgeLoop> not_separating(const Topology& topology, std::vector<EdgeL
   return kept;
 }
 
-double diagonal_of(const RepairState& state) {
-  if (state.faces.empty()) return 0;
-  Vector3 lower = Vector3::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
+/// What is asked of the part of the surface that a vertex is in.
+struct OfParts {
+  std::vector<char> inside_out;  // #V
+  std::vector<double> diagonal;  // #V, of the box about those of its first vertices
+  double longest_diagonal = 0;
+};
+
+/// A handle is large or small beside the part that it belongs to: what else is in the file, and how
+/// far off, says nothing of it. Of boxes the first `vertices` alone: caps, which come later, change
+/// none.
+OfParts parts_of(const RepairState& state, Vertex vertices) {
+  const size_t count = state.positions.size();
+  UnionFind parts(count);
+  for (const auto& [a, b, c] : state.faces) {
+    parts.unite(a, b);
+    parts.unite(b, c);
+  }
+  std::vector<double> volume(count, 0);
+  const Vector3 none = Vector3::Constant(std::numeric_limits<double>::infinity());
+  std::vector<Vector3> lower(count, none), upper(count, -none);
   for (const auto& face : state.faces) {
+    const auto& [a, b, c] = face;
+    const auto part = static_cast<size_t>(parts.find(a));
+    volume[part] += state.shape[a].dot(state.shape[b].cross(state.shape[c]));
     for (const Vertex v : face) {
-      lower = lower.cwiseMin(state.shape[v]);
-      upper = upper.cwiseMax(state.shape[v]);
+      if (v >= vertices) continue;
+      lower[part] = lower[part].cwiseMin(state.shape[v]);
+      upper[part] = upper[part].cwiseMax(state.shape[v]);
     }
   }
-  return (upper - lower).norm();
-}
-
-/// Per vertex: is its component inside out?
-std::vector<char> inside_out(const RepairState& state) {
-  UnionFind components(state.positions.size());
-  for (const auto& [a, b, c] : state.faces) {
-    components.unite(a, b);
-    components.unite(b, c);
+  OfParts result{std::vector<char>(count), std::vector<double>(count, 0)};
+  for (size_t v = 0; v < count; ++v) {
+    const auto part = static_cast<size_t>(parts.find(static_cast<Vertex>(v)));
+    result.inside_out[v] = volume[part] < 0;
+    if (!(lower[part].x() <= upper[part].x())) continue;  // no face names it
+    result.diagonal[v] = (upper[part] - lower[part]).norm();
+    result.longest_diagonal = std::max(result.longest_diagonal, result.diagonal[v]);
   }
-  std::vector<double> volume(state.positions.size(), 0);
-  for (const auto& [a, b, c] : state.faces) {
-    volume[components.find(a)] += state.shape[a].dot(state.shape[b].cross(state.shape[c]));
-  }
-  std::vector<char> result(state.positions.size());
-  for (Vertex v = 0; v < state.vertex_count(); ++v) result[v] = volume[components.find(v)] < 0;
   return result;
 }
 
@@ -101,9 +114,9 @@ class HandleRemover {
   HandleRemover(RepairState& state, const RepairOptions& options)
       : state_(state),
         choice_(options.handle_choice),
-        diagonal_(diagonal_of(state)),
-        limit_(options.longest_handle_length > 0 ? options.longest_handle_length / state.scale
-                                                 : options.longest_handle * diagonal_) {}
+        longest_share_(options.longest_handle),
+        longest_length_(options.longest_handle_length / state.scale),
+        first_vertices_(state.vertex_count()) {}
 
   void run() {
     while (const std::optional<Topology> topology =
@@ -117,31 +130,38 @@ class HandleRemover {
   bool cut_some(const Topology& topology, const LoopBasis& basis) {
     const std::vector<Vector3> places = places_off_fillers(state_);
     const ShortLoops search(topology, basis, places);
-    inside_out_ = inside_out(state_);
-    double shortest = std::numeric_limits<double>::infinity();
+    of_parts_ = parts_of(state_, first_vertices_);
+    const double any_limit = limit_for(of_parts_.longest_diagonal);
+    double shortest = std::numeric_limits<double>::infinity();  // in diagonals of its part
     for (;; reach_ *= 2) {
       const std::vector<EdgeLoop> found = chosen(topology, search);
       std::vector<LoopToCut> allowed;
       for (const EdgeLoop& loop : found) {
         const double length = length_of(loop.vertices, places);
-        shortest = std::min(shortest, length);
-        if (length <= limit_) allowed.push_back({loop.vertices, fills(topology, loop)});
+        const double diagonal = of_parts_.diagonal[loop.vertices.front()];
+        shortest = std::min(shortest, length / diagonal);
+        if (length <= limit_for(diagonal))
+          allowed.push_back({loop.vertices, fills(topology, loop), diagonal});
       }
       if (!allowed.empty()) {
-        cut_along(state_, topology, allowed, diagonal_);
+        cut_along(state_, topology, allowed);
         return true;
       }
-      const bool beyond_limit = std::isfinite(shortest) && search.reaches(limit_, reach_);
+      const bool beyond_limit = std::isfinite(shortest) && search.reaches(any_limit, reach_);
       if (!beyond_limit && !search.reaches_all(reach_)) continue;
       if (!std::isfinite(shortest) && !std::exchange(any_kind_, true)) continue;
-      if (std::isfinite(shortest)) state_.shortest_handle_left = shortest / diagonal_;
+      if (std::isfinite(shortest)) state_.shortest_handle_left = shortest;
       return false;
     }
   }
 
+  double limit_for(double diagonal) const {
+    return longest_length_ > 0 ? longest_length_ : longest_share_ * diagonal;
+  }
+
   bool fills(const Topology& topology, const EdgeLoop& loop) const {
     return spans_outside(topology, state_.shape, loop.vertices) !=
-           (inside_out_[loop.vertices.front()] != 0);
+           (of_parts_.inside_out[loop.vertices.front()] != 0);
   }
   bool is_wanted(const Topology& topology, const EdgeLoop& loop) const {
     return any_kind_ || choice_ == HandleChoice::Shortest || choice_ == HandleChoice::Area ||
@@ -222,10 +242,11 @@ class HandleRemover {
 
   RepairState& state_;
   const HandleChoice choice_;
-  const double diagonal_, limit_;
+  const double longest_share_, longest_length_;
+  const Vertex first_vertices_;
   double reach_ = first_reach;
   bool any_kind_ = false;  // of the kind that is wanted no loop was found: crumpled ones have none
-  std::vector<char> inside_out_;
+  OfParts of_parts_;
 };
 
 }  // namespace
