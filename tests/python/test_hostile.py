@@ -227,6 +227,13 @@ bad_options = {
     "values: a number for a name": (dict(values={3: np.zeros(6)}), ValueError, "name"),
     "values: no number a row": (dict(values={"a": np.zeros((6, 0))}), ValueError, r"values\['a'\]: rows without"),
     "values: masked": (dict(values={"a": np.ma.masked_less(np.arange(6.0), 2)}), ValueError, "masked"),
+    "values: a column of another": (dict(values={"k": np.zeros((6, 2)), "k_0": np.zeros(6)}), ValueError, "'k_0'.* 'k' .*'k_0'"),
+    "values: another's next column": (dict(values={"k_2": np.zeros(6), "k": np.zeros((6, 2))}), ValueError, "'k'.*'k_2'"),
+    "values: the next column, of labels": (dict(values={"k": np.zeros((6, 2)), "k_2": np.zeros(6, int)}), ValueError, "'k'.*'k_2'"),
+    "values: colours twice": (dict(values={"color": np.zeros((6, 3)), "colors": np.zeros((6, 3))}), ValueError, "'colors'.*'color'"),
+    "values: colours and their alpha": (dict(values={"color": np.zeros((6, 3)), "alpha": np.zeros(6)}), ValueError, "'color'.*'alpha'"),
+    "repair: near twice": (dict(repair=dict(weld_share=0.1, weld_length=0.1)), ValueError, "weld_share and weld_length contradict"),
+    "repair: less than near": (dict(repair=dict(weld_share=-0.5)), ValueError, "weld_share"),
     "balance and weight": (dict(balance="conformal", weight=2.0), ValueError, "contradict"),
     "balance: of no such method": (dict(method="radial", balance="equal-area"), ValueError, "for method='progressive'"),
     "quality: of no such method": (dict(method="curvilinear", quality="best"), ValueError, "for method='progressive'"),
@@ -251,6 +258,10 @@ def mapped():
     return sp.map(*potato(2))
 
 
+def coloured():
+    return sp.map(V, F, values={"color": np.full((6, 3), 0.5)})
+
+
 bad_uses = {
     "locate: NaN": (lambda m: m.locate([[np.nan, 0, 0]]), ValueError, "finite"),
     "locate: zero": (lambda m: m.locate([[1, 0, 0], [0, 0, 0]]), ValueError, "row 1"),
@@ -260,6 +271,17 @@ bad_uses = {
     "resample: masked": (lambda m: m.resample(np.ma.masked_less(np.arange(66.0), 2), [[1, 0, 0]]), ValueError, "masked"),
     "resample: no such name": (lambda m: m.resample("sulc", [[1, 0, 0]]), ValueError, "sulc"),
     "resample: objects": (lambda m: m.resample(np.array([None] * 66), [[1, 0, 0]]), TypeError, "object"),
+    "chart: too few": (lambda m: m.chart().carry(np.zeros(3)), ValueError, "66 rows .* not 3"),
+    "chart: too many": (lambda m: m.chart().carry(np.zeros((67, 2))), ValueError, "66 rows .* not 67×2"),
+    "bake: columns": (lambda m: coloured().bake("scalar:color", size=16), ValueError, "3 columns.*scalar:red, scalar:green"),
+    "bake_files: columns": (lambda m: coloured().bake_files({"scalar:color": "a.png"}), ValueError, "scalar:blue"),
+    "measure: a seed beyond": (lambda m: sp.measure(m, m, seed=2**64), ValueError, "seed"),
+    "measure: a text for a truth": (lambda m: sp.measure(m, m, extremes="no"), TypeError, "extremes: True or False"),
+    "read: a text for a truth": (lambda m: sp.read(__file__, repeated_corners="yes"), TypeError, "repeated_corners"),
+    "match: a number for a truth": (lambda m: sp.match(m, m, (), mirror=1), TypeError, "mirror"),
+    "match: a text for a truth": (lambda m: sp.match(m, m, alike="yes"), TypeError, "alike"),
+    "match: no weight of no features": (lambda m: sp.match(m, m, (), feature_weight=np.nan), ValueError, "feature_weight"),
+    "export: a number": (lambda m: m.export("a.glb", texture=3), ValueError, "not a single number"),
     "bake: no such field": (lambda m: m.bake("normal"), ValueError, "normal"),
     "bake: odd size": (lambda m: m.bake("position", size=5), ValueError, "even"),
     "bake: a size beyond": (lambda m: m.bake("position", size=10**6), ValueError, "65536"),

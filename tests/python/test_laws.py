@@ -129,8 +129,68 @@ def test_values_cannot_be_written_to_either():
     for mesh in (sp.Mesh(*octahedron(), values={"a": np.arange(6.0)}), sp.map(*octahedron(), values={"a": np.arange(6.0)})):
         with pytest.raises(ValueError):
             mesh.values["a"][:] = 7
-        mesh.values["b"] = np.zeros(6)  # of a dict of one's own
+        with pytest.raises(TypeError):
+            mesh.values["b"] = np.zeros(6)
         assert list(mesh.values) == ["a"]
+
+
+def test_what_a_map_has_found_out_cannot_be_written_to():
+    made = sp.map(*potato(2), values={"k": np.zeros((66, 2))})
+    found = [made.theta, made.phi, made.fillers, made.certificate.folded, made.values["k"], made.values["k_0"]]
+    for array in [*found, *made.face_distortion]:
+        with pytest.raises(ValueError):
+            array[...] = 0
+    made.pin_residuals.append(1.0)  # one's own
+    assert made.pin_residuals == []
+
+
+def given_values():
+    x, label = np.linspace(0, 1, 66), np.arange(66, dtype=np.int32)
+    columns = np.stack([x, x**2, -x], 1)
+    return {
+        "an array": ({"k": columns}, {"k": columns}),
+        "one of one column": ({"k": columns[:, :1]}, {"k": x}),
+        "columns as files have them": ({"k_0": x, "k_1": -x}, {"k": np.stack([x, -x], 1)}),
+        "columns of two types": ({"k_0": x, "k_1": label}, {"k_0": x, "k_1": label}),
+        "an array and its name": ({"k": x, "k_0": x, "k_1": -x}, {"k": x, "k_0": x, "k_1": -x}),
+        "a name of the map's": ({"x_0": x, "x_1": -x}, {"x_0": x, "x_1": -x}),
+        "what colours are not kept as": ({f"color_{i}": x for i in range(3)}, {f"color_{i}": x for i in range(3)}),
+        "texture coordinates of three": ({"uv": columns}, {"uv": columns}),
+    }
+
+
+@pytest.mark.parametrize("case", given_values())
+def test_values_come_back_as_they_were_given(case, tmp_path):
+    given, expected = given_values()[case]
+    made = sp.map(*potato(2), values=given)
+    made.save(tmp_path / "a.sph.ply")
+    for values in (made.values, made.mesh.values, sp.load(tmp_path / "a.sph.ply").values):
+        assert set(values) == set(expected)
+        for name, array in expected.items():
+            assert values[name].dtype == array.dtype and (values[name] == array).all()
+        for name, array in given.items():
+            assert (values[name].reshape(array.shape) == array).all()
+
+
+def test_values_that_a_mesh_is_given_take_the_place_of_its_own():
+    x = np.linspace(0, 1, 66)
+    mesh = sp.Mesh(*potato(2), values={"k": np.stack([x, x, x], 1), "label": np.arange(66)})
+    for new in (x, np.stack([x, -x], 1)):
+        made = sp.Mesh(mesh, values={"k": new})
+        assert set(made.values) == {"k", "label"} and (made.values["k"] == new).all()
+    with pytest.raises(ValueError, match="'k_0'.*'k'"):
+        sp.Mesh(mesh, values={"k_0": x})
+    assert mesh.values["k"].shape == (66, 3)
+
+
+def test_columns_go_by_the_name_of_their_array_and_by_their_own():
+    points = potato(2)[0]
+    made = sp.map(*potato(2), values={"pc": points[:, :2].copy()})
+    assert (made.resample("pc_1", made.points) == made.resample("pc", made.points)[:, 1]).all()
+    assert made.spharm(2, values=["pc"]).functions == ["x", "y", "z", "pc_0", "pc_1"]
+    for names, found in ((["pc"], "pc"), (["pc_0", "pc_1"], "pc"), (["pc_1"], "pc_1")):
+        assert list(made.remesh("ico:1", transfer=names).values) == [found]
+    assert made.bake("scalar:pc_1", size=16).shape == (8, 16, 1)
 
 
 def test_a_sphere_seen_from_inside_is_one_to_one_as_it_is_in_files(tmp_path):

@@ -305,8 +305,33 @@ def test_a_refusal_says_what_loses_least_first():
 
 
 def test_a_surface_inside_out_is_told():
-    assert "faces[:, ::-1]" in sp.map(V, F[:, ::-1]).warnings[0]
+    with pytest.warns(sp.LossWarning, match="clockwise") as told:
+        assert "faces[:, ::-1]" in sp.map(V, F[:, ::-1]).warnings[0]
+    assert len(told) == 1 and told[0].filename == __file__
     assert sp.map(V, F).warnings == [] and sp.map(V, F[:, ::-1], repair=True).warnings == []
+
+
+def test_more_coefficients_than_vertices_are_told():
+    mapped = sp.map(V, F)
+    with pytest.warns(sp.LossWarning, match="coefficients for .* vertices") as told:
+        mapped.spharm(int(len(V) ** 0.5))
+    assert len(told) == 1
+    mapped.spharm(int(len(V) ** 0.5), least_squares=False)
+
+
+def test_poles_and_meridian_come_back_from_a_file(tmp_path):
+    made = sp.map(np.concatenate([[[9, 9, 9]], V]), F + 1, meridian=7, repair=True)
+    assert made.poles is not None and made.meridian == 7
+    for name in ("a.sph.ply", "a.vtk", "a.vtp"):
+        made.save(tmp_path / name)
+        read = sp.load(tmp_path / name)
+        assert (read.poles, read.meridian) == (made.poles, made.meridian)
+    none = sp.map(V, F, poles="none")
+    none.save(tmp_path / "a.sph.ply")
+    assert sp.load(tmp_path / "a.sph.ply").poles is None is none.poles
+    false = (tmp_path / "a.vtk").read_bytes().replace(b"poles %d %d" % made.poles, b"poles %d %d" % (made.poles[0] - 1, made.poles[1]))
+    (tmp_path / "a.vtk").write_bytes(false)
+    assert sp.load(tmp_path / "a.vtk").poles is None
 
 
 @pytest.mark.parametrize(

@@ -78,6 +78,13 @@ def finite_points(thing: Any, name: str, count: Optional[int] = None) -> Array:
     return array
 
 
+def require_rows(array: Array, name: str, count: int) -> None:
+    """One row a vertex."""
+    if array.ndim == 0 or len(array) != count:
+        shape = "×".join(str(n) for n in array.shape) or "a single number"
+        raise ValueError(f"{name}: {count} rows are needed, one a vertex, not {shape}")
+
+
 def directions(thing: Any, name: str = "directions") -> Array:
     """Finite rows, none of which is zero."""
     array = finite_points(thing, name)
@@ -105,6 +112,13 @@ def whole(number: Any, name: str, least: int, most: Optional[int] = None) -> int
     if number < least or (most is not None and number > most):
         raise ValueError(f"{name}: {least} to {most} is needed, not {number}" if most else f"{name}: from {least}, not {number}")
     return int(number)
+
+
+def flag(thing: Any, name: str) -> bool:
+    """True or False, of Python or NumPy, and nothing that could be taken for one."""
+    if not isinstance(thing, bool) and not isinstance(thing, np.bool_):
+        raise TypeError(f"{name}: True or False is needed, not {thing!r}")
+    return bool(thing)
 
 
 def real(thing: Any, name: str) -> float:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Dict
 
 from . import _arrays
+from ._attributes import document
 from ._numpy import np
 
 if TYPE_CHECKING:
@@ -25,7 +26,7 @@ class Chart:
     """
 
     def __init__(self, vertices: Floats, faces: Ints, found: Dict[str, Any]) -> None:
-        self._faces_of_mesh = faces
+        self._faces_of_mesh, self._count = faces, len(vertices)
         self.one_to_one: bool = found["one_to_one"]
         """Whether every point of the rectangle has exactly one owner; proved with exact signs."""
         self.faces: Ints = found["faces"]
@@ -54,6 +55,7 @@ class Chart:
         table = _arrays.unmasked(values, "values")
         if table.dtype.kind != "f":
             raise TypeError(f"values: floating numbers are needed, not {table.dtype}")
+        _arrays.require_rows(table, "values", self._count)
         corners = self._faces_of_mesh[self.surface_faces]
         weights = self.surface_weights.reshape(self.surface_weights.shape + (1,) * (table.ndim - 1))
         carried: Array = (np.where(weights == 0, 0, table[corners]) * weights).sum(axis=1)
@@ -62,3 +64,6 @@ class Chart:
     def __repr__(self) -> str:
         proved = "one-to-one" if self.one_to_one else "not one-to-one"
         return f"<sphparam.Chart: {len(self.faces)} triangles, {len(self.uv)} wedges, {proved}>"
+
+
+document(globals())

@@ -140,7 +140,7 @@ def map(
         mine = found is not mesh
         made = SphereMap._of(_core.map(found._source, mine, options, report))
     made._found.update(welds=found._welds, share=found.area_share)
-    tell(made._account().get("warnings", []))
+    tell(made.warnings)
     return made
 
 

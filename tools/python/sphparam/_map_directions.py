@@ -54,9 +54,7 @@ class MapDirections(MapFacts):
         table = _arrays.unmasked(values, "values")
         if table.dtype.kind not in "fiubc":
             raise TypeError(f"values: numbers are needed, not {table.dtype}")
-        if table.ndim == 0 or len(table) != len(self.vertices):
-            shape = "×".join(str(n) for n in table.shape) or "a single number"
-            raise ValueError(f"values: {len(self.vertices)} rows are needed, one a vertex, not {shape}")
+        _arrays.require_rows(table, "values", len(self.vertices))
         face, weights = self.locate(directions, threads=threads)
         corners = self.faces[face]
         weights = weights.reshape(weights.shape + (1,) * (table.ndim - 1))
@@ -80,7 +78,7 @@ class MapDirections(MapFacts):
         from ._chart import Chart
 
         with told(progress) as report:
-            found = _core.chart(self._mapped, bool(keep_topology), _arrays.threads(threads), report)
+            found = _core.chart(self._mapped, _arrays.flag(keep_topology, "keep_topology"), _arrays.threads(threads), report)
         return Chart(self.vertices, self.faces, found)
 
 

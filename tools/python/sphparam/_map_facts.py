@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import zlib
-from typing import TYPE_CHECKING, Any, Callable, Dict, List, NoReturn, Optional, Tuple, Type, TypeVar
+from typing import TYPE_CHECKING, Any, Callable, Dict, List, NoReturn, Optional, Sequence, Tuple, Type, TypeVar
 
 from . import _core, _values
 from ._figures import Action, Certificate, Distortion, FaceDistortion, HandleLoop, Radial, Stage
@@ -85,22 +85,29 @@ class MapFacts:
     @property
     def theta(self) -> Floats:
         """(V,) longitude in radians, 0 to 2π."""
-        return self._once("angles", lambda: _core.angles(self._mapped))[0]
+        return self._angles()[0]
 
     @property
     def phi(self) -> Floats:
         """(V,) polar angle in radians, 0 at +z to π at −z."""
-        return self._once("angles", lambda: _core.angles(self._mapped))[1]
+        return self._angles()[1]
+
+    def _angles(self) -> Tuple[Floats, Floats]:
+        def find() -> Tuple[Floats, Floats]:
+            theta, phi = _core.angles(self._mapped)
+            return _values.read_only(theta), _values.read_only(phi)
+
+        return self._once("angles", find)
 
     @property
-    def values(self) -> Dict[str, Array]:
+    def values(self) -> _values.Values:
         """What vertices carry: name to (V,) or (V, k), in its own type, read-only."""
-        return dict(self._once("values", lambda: _values.grouped(self._mapped.vertex_values())))
+        return self._once("values", lambda: _values.Values(self._mapped.vertex_values()))
 
     @property
-    def face_values(self) -> Dict[str, Array]:
+    def face_values(self) -> _values.Values:
         """What faces carry: name to (F,) or (F, k), read-only."""
-        return dict(self._once("face_values", lambda: _values.grouped(self._mapped.face_values())))
+        return self._once("face_values", lambda: _values.Values(self._mapped.face_values()))
 
     @property
     def polygons(self) -> Optional[List[Ints]]:
@@ -118,7 +125,7 @@ class MapFacts:
     @property
     def fillers(self) -> Flags:
         """(F,) True where a face only closes a hole that was kept: it is mapped, but no surface."""
-        marks: Flags = self._once("fillers", lambda: self._mapped.fillers.view(bool))
+        marks: Flags = self._once("fillers", lambda: _values.read_only(self._mapped.fillers.view(bool)))
         return marks
 
     @property
@@ -134,7 +141,7 @@ class MapFacts:
     @property
     def certificate(self) -> Certificate:
         """What was proved of ``points``, with exact signs."""
-        return self._once("certificate", lambda: Certificate(**self._mapped.certificate))
+        return self._once("certificate", lambda: Certificate(**_all_read_only(self._mapped.certificate)))
 
     @property
     def distortion(self) -> Distortion:
@@ -149,7 +156,7 @@ class MapFacts:
     def _measured(self) -> Tuple[Distortion, FaceDistortion]:
         def measure() -> Tuple[Distortion, FaceDistortion]:
             found = _core.distortion(self._mapped, 0)
-            return Distortion(**found.pop("summary")), FaceDistortion(**found)
+            return Distortion(**found.pop("summary")), FaceDistortion(**_all_read_only(found))
 
         return self._once("distortion", measure)
 
@@ -177,17 +184,37 @@ class MapFacts:
     @property
     def poles(self) -> Optional[Tuple[int, int]]:
         """The vertices at +z and −z by their numbers in the mesh that was given, or None."""
-        return self._account().get("poles")
+        if self._account():
+            made: Optional[Tuple[int, int]] = self._account()["poles"]
+            return made
+        noted = self._once("poles", lambda: self._noted("poles", ((0.0, 0.0, 1.0), (0.0, 0.0, -1.0))))
+        return (noted[0], noted[1]) if noted else None
 
     @property
     def meridian(self) -> Optional[int]:
         """A vertex with θ = 0 that was asked for or chosen, or None."""
-        return self._account().get("meridian")
+        if self._account():
+            made: Optional[int] = self._account()["meridian"]
+            return made
+        noted = self._once("meridian", lambda: self._noted("meridian", ((None, 0.0, None),)))
+        return noted[0] if noted else None
+
+    def _noted(self, key: str, places: Sequence[Tuple[Optional[float], ...]]) -> List[int]:
+        """Vertices that the file of a map names, where they are where it says."""
+        words = self.provenance.get(key, "").split()
+        if len(words) != len(places) or not all(word.isdecimal() for word in words):
+            return []
+        numbers, origin = [int(word) for word in words], self.vertex_origin
+        for number, place in zip(numbers, places):
+            rows = self.points[origin == number]
+            if len(rows) != 1 or any(wanted not in (None, got) for wanted, got in zip(place, rows[0])):
+                return []
+        return numbers
 
     @property
     def pin_residuals(self) -> List[float]:
         """Radians of each pin from where it was wanted; 0: exactly there."""
-        return self._account().get("pin_residuals", [])
+        return list(self._account().get("pin_residuals", []))
 
     @property
     def filler_share(self) -> Optional[float]:
@@ -201,7 +228,9 @@ class MapFacts:
 
     @property
     def radial(self) -> Optional[Radial]:
-        """Of ``method="radial"``: how the map differs from the directions from the centre; else None."""
+        """Of ``method="radial"``, of maps made here: how the map differs from the directions from the centre;
+        else None. A file keeps the centre and the largest movement, in ``provenance``.
+        """
         found = self._account().get("radial")
         return None if found is None else Radial(*found)
 
@@ -252,6 +281,14 @@ class MapFacts:
         """(V,) numbers of the vertices in the mesh or file that was given; −1: created."""
         found = dict(self._mapped.vertex_values()).get("source_vertex")
         return numbered(len(self.vertices)) if found is None else found
+
+
+def _all_read_only(figures: Dict[str, Any]) -> Dict[str, Any]:
+    """The same, whose arrays nobody may write to."""
+    for figure in figures.values():
+        if hasattr(figure, "flags"):
+            _values.read_only(figure)
+    return figures
 
 
 def mapped_of(thing: Any, name: str) -> _core.Mapped:

@@ -53,10 +53,10 @@ class MapGrids(MapFacts):
         """
         from ._sphere_map import SphereMap
 
-        names = _names(transfer, "transfer")
+        names = self._transferred(transfer)
         with told(progress) as report:
             made = _core.remesh(
-                self._mapped, _grid(grid), sample, names, bool(adaptive), uv, _arrays.threads(threads), report
+                self._mapped, _grid(grid), sample, names, _arrays.flag(adaptive, "adaptive"), uv, _arrays.threads(threads), report
             )
         return SphereMap._of(made)
 
@@ -85,7 +85,7 @@ class MapGrids(MapFacts):
         """
         from ._subdivision import SubdivisionFit
 
-        names = _names(transfer, "transfer")
+        names = self._transferred(transfer)
         with told(progress) as report:
             made = _core.fit(self._mapped, _grid(grid), scheme, names, _arrays.threads(threads), report)
         return SubdivisionFit._of(made)
@@ -108,16 +108,31 @@ class MapGrids(MapFacts):
         """
         from ._harmonics import Harmonics
 
-        names = _names(values, "values")
+        names = [column for name in _names(values, "values") for column in self.values.columns(name)]
         degree = _arrays.whole(degree, "degree", 1 if align else 0, 1000)
+        self._warn_of_few_vertices(degree, least_squares)
         if self.fillers.any():
             tell([f"{self.name}: harmonics are of the whole sphere, with what closes the holes"])
         with told(progress) as report:
             found = _core.expand(
-                self._mapped, degree, names, bool(least_squares), bool(align), _arrays.threads(threads), report
+                self._mapped, degree, names, _arrays.flag(least_squares, "least_squares"), _arrays.flag(align, "align"), _arrays.threads(threads), report
             )
         tell(found["doubts"])
         return Harmonics(found)
+
+    def _transferred(self, transfer: Union[str, Iterable[str]]) -> List[str]:
+        """Words of the library's, and columns for arrays of them."""
+        columns: List[str] = []
+        for name in _names(transfer, "transfer"):
+            values = self.values if name in self.values else self.face_values
+            columns += [name] if name in ("color", "normal", "uv") else values.columns(name)
+        return columns
+
+    def _warn_of_few_vertices(self, degree: int, least_squares: bool) -> None:
+        """More coefficients than vertices: the residual at the vertices says nothing then."""
+        count, vertices = (degree + 1) ** 2, len(self.vertices)
+        if least_squares and count > vertices:
+            tell([f"{count} coefficients for {vertices} vertices: what these leave open is as with least_squares=False"])
 
 
 def _names(names: Union[str, Iterable[str]], what: str) -> List[str]:

@@ -156,11 +156,25 @@ class MapImages(MapFacts):
 
         _require_field(_arrays.text(field, "field"))
         options = _baking(locals())
+        self._require_scalar(field, surface)
         with told(progress) as report:
             [(name, about, table)] = _core.bake_to_arrays(self._mapped, [field], options, report)
         frame = (target or self)._fingerprint() if name == "normal-tangent" else None
         poles = refine_poles if options["interpolation"] == "uv" else None
         return BakedImage._of(table, name, about, Baked(options["convention"], poles, normal_y_down, frame))
+
+    def _require_scalar(self, field: str, surface: Optional[Any]) -> None:
+        """Tells of several numbers a vertex which one is one image."""
+        kind, _, name = field.partition(":") if isinstance(field, str) else ("", "", "")
+        if kind != "scalar":
+            return
+        other = None if surface is None else any_mesh(surface, None)
+        mine = (self.values, self.face_values)
+        for values in mine if other is None else (other.values, other.face_values):
+            names = values.columns(name)
+            if len(names) > 1:
+                listed = ", ".join("scalar:" + column for column in names)
+                raise ValueError(f"{field}: {name!r} has {len(names)} columns, an image each: {listed}")
 
     def bake_files(
         self,
@@ -198,6 +212,8 @@ class MapImages(MapFacts):
         GDAL and QGIS where they lie.
         """
         options = _baking(locals())
+        for name in images:
+            self._require_scalar(name, surface)
         pairs = [(_arrays.text(name, "images"), path_of(path)) for name, path in dict(images).items()]
         with told(progress) as report:
             *rows, warned = _core.bake_to_files(self._mapped, pairs, options, report)

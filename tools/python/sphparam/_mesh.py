@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, Dict, List, Mapping, NoReturn, Optional, Tuple, Union
+from typing import TYPE_CHECKING, Any, List, Mapping, NoReturn, Optional, Tuple, Union
 
 from . import _arrays, _core, _values
 from ._errors import Defect, MeshError, ReadError, WriteError
@@ -114,14 +114,14 @@ class Mesh:
         return self._source.faces
 
     @property
-    def values(self) -> Dict[str, Array]:
+    def values(self) -> _values.Values:
         """What vertices carry: name to (V,) or (V, k), in its own type, read-only."""
-        return _values.grouped(self._source.vertex_values())
+        return _values.Values(self._source.vertex_values())
 
     @property
-    def face_values(self) -> Dict[str, Array]:
+    def face_values(self) -> _values.Values:
         """What faces carry: name to (F,) or (F, k), read-only."""
-        return _values.grouped(self._source.face_values())
+        return _values.Values(self._source.face_values())
 
     @property
     def corner_uv(self) -> Optional[npt.NDArray[numpy.float64]]:
@@ -132,7 +132,7 @@ class Mesh:
     @property
     def fillers(self) -> npt.NDArray[numpy.bool_]:
         """(F,) True where a face only closes a hole that was kept, by the face value ``"filler"``."""
-        marks: npt.NDArray[numpy.bool_] = self._source.fillers.view(bool)
+        marks: npt.NDArray[numpy.bool_] = _values.read_only(self._source.fillers.view(bool))
         return marks
 
     @property
@@ -209,7 +209,8 @@ class Mesh:
         raise TypeError("a Mesh cannot be pickled: mesh.save(path) writes it, sphparam.read(path) reads it")
 
     def __repr__(self) -> str:
-        return f"<sphparam.Mesh: {len(self.vertices)} vertices, {len(self.faces)} faces, {self.path}>"
+        path = os.fsencode(self.path).decode(errors="replace")
+        return f"<sphparam.Mesh: {len(self.vertices)} vertices, {len(self.faces)} faces, {path}>"
 
 
 def numbered(count: int) -> npt.NDArray[numpy.int32]:
@@ -250,8 +251,13 @@ def _outside(faces: Array, count: int) -> str:
 def _with_values(mesh: Mesh, values: Optional[Mapping[str, Any]]) -> Mesh:
     if values is not None and not isinstance(values, Mapping):
         raise TypeError(f"values: names with arrays are needed, not {type(values).__name__}")
-    for name, thing in (values or {}).items():
-        for row in _values.columns(name, thing, len(mesh.vertices)):
+    if values:
+        added = _values.Columns(len(mesh.vertices), there=mesh._source.vertex_values())
+        for name, thing in values.items():
+            added.add(name, thing)
+        for column in added.dropped:
+            mesh._source.drop_vertex_values(column)
+        for row in added.rows:
             mesh._source.set_vertex_values(*row)
     return mesh
 
@@ -267,8 +273,9 @@ def read(path: Path, *, repeated_corners: bool = False, non_finite: bool = False
     Raises FileNotFoundError, :class:`ReadError` with the place. Warns, as :class:`LossWarning`, of what
     the file carries and a mesh has no room for.
     """
+    repeats, others = _arrays.flag(repeated_corners, "repeated_corners"), _arrays.flag(non_finite, "non_finite")
     try:
-        source = _core.read(existing(path), repeated_corners, non_finite)
+        source = _core.read(existing(path), repeats, others)
     except ReadError as error:
         raise ReadError(_as_typed_here(str(error))) from None
     tell(f"{path_of(path)}: {loss}" for loss in source.losses)

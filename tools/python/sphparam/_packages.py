@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Dict, Iterable, List, Mapping, Optional
 from ._arrays import numbers, points, triangles
 from ._losses import tell
 from ._numpy import np
-from ._values import columns
+from ._values import Columns
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -41,13 +41,13 @@ class Parts:
         tell(f"not carried: {loss}" for loss in self._losses)
 
     def _kept(self, values: Optional[Values], count: int, what: str) -> Rows:
-        rows: Rows = []
+        kept = Columns(count, what)
         for name, thing in (values or {}).items():
             try:
-                rows += columns(re.sub(r"\s+", "_", str(name)), thing, count, what)
+                kept.add(re.sub(r"\s+", "_", str(name)), thing)
             except (TypeError, ValueError) as error:
                 self._losses.append(str(error))
-        return rows
+        return kept.rows
 
 
 def _named(what: str, names: Iterable[Any]) -> List[str]:
