@@ -4,6 +4,7 @@ import ast
 import inspect
 import os
 import pathlib
+import pydoc
 import typing
 
 import pytest
@@ -75,6 +76,17 @@ def test_a_public_name_is_typed_and_documented(name):
         holder = node if issubclass(thing, tuple) else next(p for p in node.body if getattr(p, "name", "") == "__init__")
         declared = dict(said_after(holder.body))
         assert len(declared) >= 4 and all(declared.values()), declared
+
+
+@pytest.mark.parametrize("name", ["Chart", "Group", "Harmonics", "SurfaceMap", *(n for n in sp.__all__ if hasattr(getattr(sp, n), "_fields"))])
+def test_help_says_what_fields_and_attributes_are(name):
+    thing, text = getattr(sp, name), pydoc.plaintext.document(getattr(sp, name))
+    assert "Alias for field" not in text
+    bodies = [classes()[name].body, *(p.body for p in classes()[name].body if getattr(p, "name", "") == "__init__")]
+    declared = [target for body in bodies for target, said in said_after(body) if said]
+    assert len(declared) >= 4
+    for target in declared:
+        assert getattr(thing, "_fields", None) and getattr(thing, target).__doc__ or f"\n    {target}\n        " in thing.__doc__, target
 
 
 @pytest.mark.parametrize("name", ["SphereMap", "Mesh"])

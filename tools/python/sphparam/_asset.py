@@ -6,6 +6,7 @@ import os
 from typing import TYPE_CHECKING, Any, Dict, List, NamedTuple, Optional
 
 from . import _arrays, _core
+from ._attributes import document
 from ._losses import tell
 from ._mesh import existing, path_of
 from ._progress import Progress, told
@@ -138,16 +139,16 @@ def asset(
     options = {
         "size": _arrays.whole(size, "size", 2, 65_536),
         "samples": _arrays.whole(samples, "samples", 1, 32),
-        "occlusion": bool(occlusion),
+        "occlusion": _arrays.flag(occlusion, "occlusion"),
         "triangles": _arrays.whole(triangles, "triangles", 0, 100_000_000),
         "resolution": _arrays.whole(resolution, "resolution", 8, 2000),
         "least_kept": float(least_kept),
-        "compress": bool(compress),
+        "compress": _arrays.flag(compress, "compress"),
         "textures": _arrays.text(textures, "textures"),
         "webp_quality": _arrays.whole(webp_quality, "webp_quality", 1, 100),
         "up": as_direction(up, "up"),
         "front": as_direction(front, "front"),
-        "page": bool(page),
+        "page": _arrays.flag(page, "page"),
         "threads": _arrays.threads(threads),
     }
     with _Folder(_core.asset_folder(name) if folder is None else path_of(folder)) as place, told(progress) as report:
@@ -156,3 +157,6 @@ def asset(
     shares = made.pop("projection")
     found = SphereMap._of(made.pop("map"))
     return Asset(map=found, projection=None if shares is None else Projection(**shares), **made)
+
+
+document(globals())

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any, Callable, NamedTuple, Optional, Tuple
 
 import numpy as np
 
+from ._attributes import document
+
 if TYPE_CHECKING:
     import numpy.typing as npt
 
@@ -186,3 +188,6 @@ def require_kind(image: Any, name: str, field: str, fingerprint: Optional[Callab
         raise ValueError(f"{name}: baked with normal_y_down=True; glTF and OBJ want normals with y up")
     if image._baked.frame != fingerprint():
         raise ValueError(f"{name}: baked for another mesh; bake({field!r}, target=…) makes it for the one exported")
+
+
+document(globals())

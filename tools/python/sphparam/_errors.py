@@ -2,7 +2,30 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any, List, Mapping, NamedTuple, Optional, Sequence, Tuple
+
+from ._attributes import document
+
+_typed_here = {
+    "say --alike": "say alike=True",
+    "give --landmarks": "give landmarks",
+    "(--unit)": "(unit=)",
+    "(--body)": "(body=)",
+    "another --resolution": "another resolution=",
+    "a finer --grid": "a finer grid=",
+    "; --keep-holes closes": "; repair=dict(keep_holes=True) closes",
+    "`sphparam bake --map normal-tangent` makes it": 'bake("normal-tangent") makes it',
+    "`sphparam bake --normal-y gl` makes it so": "without normal_y_down it is baked so",
+}
+"""Options of the program in messages of the library, and what is typed here."""
+
+
+def as_typed_here(message: str) -> str:
+    """A message of the library, with arguments where it names options of the program."""
+    for option, argument in _typed_here.items():
+        message = message.replace(option, argument)
+    return re.sub(r": --convention (\w+) shows", r': convention="\1" shows', message)
 
 
 class Defect(NamedTuple):
@@ -145,3 +168,6 @@ class ImageError(OSError):
 
 class LossWarning(UserWarning):
     """What a file or an object carries and was left out, or what a result is not."""
+
+
+document(globals())

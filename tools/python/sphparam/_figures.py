@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple, Optional, Tuple
 
+from ._attributes import document
 from ._errors import Defect
 
 if TYPE_CHECKING:
@@ -29,13 +30,13 @@ class Certificate(NamedTuple):
     reversed: bool
     """Every triangle is negative: the sphere is seen from inside."""
     folded: Ints
-    """Faces that are turned over."""
+    """(k,) faces that are turned over."""
     degenerate: Ints
-    """Faces that are flat."""
+    """(k,) faces that are flat."""
     unusable_points: Ints
-    """Vertices whose ray is zero, not finite or beyond 2⁶⁴."""
+    """(k,) vertices whose ray is zero, not finite or beyond 2⁶⁴."""
     branch_vertices: Ints
-    """Vertices whose triangles wind more than once about them."""
+    """(k,) vertices whose triangles wind more than once about them."""
     max_length_error: float
     """Largest | |ray| − 1 |."""
 
@@ -86,15 +87,15 @@ class FaceDistortion(NamedTuple):
     area."""
 
     area_ratio: Floats
-    """(F,) spherical area over source area."""
+    """(F,) share of the sphere over share of the surface; 1 is perfect."""
     angle_ratio: Floats
-    """(F, 3) corner by corner."""
+    """(F, 3) corner by corner, the angle on the sphere over that of the surface: less than 1 or more."""
     sigma_max: Floats
-    """(F,) larger singular value."""
+    """(F,) larger singular value of the map, the surface scaled to the area of the sphere."""
     sigma_min: Floats
     """(F,) smaller singular value."""
     source_area: Floats
-    """(F,) share of the total area of the surface; 0: the face has none."""
+    """(F,) share of the total area of the surface, which sum to 1; 0: the face has none."""
 
 
 class Stage(NamedTuple):
@@ -266,3 +267,6 @@ class Displacement(NamedTuple):
     """RMS distance of the fitted surface alone from the mesh, where a mesh was rebuilt."""
     rebuilt_rms: Optional[float]
     """RMS distance of surface and image together."""
+
+
+document(globals())

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence
 
 from . import _arrays, _core
+from ._attributes import document
 from ._losses import tell
 from ._map_facts import mapped_of
 from ._progress import Progress, told
@@ -39,11 +40,11 @@ class Group:
         self.deviations: Floats = found["deviations"]
         """(k,) RMS displacement by one standard deviation."""
         self.shares: Floats = found["shares"]
-        """(k,) of the variance."""
+        """(k,) of the variance, what each mode has."""
         self.scores: Floats = found["scores"]
         """(n, k) of each shape, in standard deviations: shape = mean + scores · modes."""
         self.variance: float = found["variance"]
-        """Of all modes, also those that are not kept."""
+        """Of all modes, also those that are not kept: Σ |x − mean|² / (n − 1), by ``weights``."""
         self.sizes: List[float] = [shape["size"] for shape in found["shapes"]]
         """Of each shape on the grid, as it was: RMS distance of its surface from its centroid, both by area,
         whoever else is in the group."""
@@ -109,11 +110,11 @@ def group(
     reference = maps[0] if template is None else mapped_of(template, "template")
     options = {
         "start": _arrays.text(start, "start"),
-        "alike": bool(alike),
-        "hold": bool(hold),
+        "alike": _arrays.flag(alike, "alike"),
+        "hold": _arrays.flag(hold, "hold"),
         "rounds": _arrays.whole(rounds, "rounds", 0, 20),
         "grid": _arrays.text(grid, "grid"),
-        "scale": bool(scale),
+        "scale": _arrays.flag(scale, "scale"),
         "modes": _arrays.whole(modes, "modes", 0, 100),
         "threads": _arrays.threads(threads),
     }
@@ -122,3 +123,6 @@ def group(
     for i, shape in enumerate(found["shapes"]):
         tell([f"shapes[{i}]: {warning}" for warning in shape["warnings"]])
     return Group(found)
+
+
+document(globals())

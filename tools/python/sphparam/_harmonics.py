@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Dict, List, Tuple
 
 from . import _arrays, _core
+from ._attributes import document
 from ._numpy import np
 
 if TYPE_CHECKING:
@@ -51,3 +52,6 @@ class Harmonics:
 
     def __repr__(self) -> str:
         return f"<sphparam.Harmonics: degree {self.degree}, {', '.join(self.functions)}, rms {self.rms:.3g}>"
+
+
+document(globals())

@@ -36,7 +36,7 @@ def _colours(image: Any, name: str) -> Bytes:
     if table.ndim == 3 and table.shape[2] == 1:
         table = np.repeat(table, 3, axis=2)
     if table.ndim != 3 or table.shape[2] not in (3, 4) or 0 in table.shape:
-        shape = "×".join(str(n) for n in table.shape)
+        shape = "×".join(str(n) for n in table.shape) or "a single number"
         raise ValueError(f"{name}: height×width, ×3 or ×4 are needed, not {shape}")
     if table.dtype == np.uint8:
         return table

@@ -7,7 +7,7 @@ import sys
 import warnings
 from typing import Iterable
 
-from ._errors import LossWarning
+from ._errors import LossWarning, as_typed_here
 
 _here = os.path.dirname(__file__) + os.sep
 
@@ -23,4 +23,4 @@ def _levels() -> int:
 def tell(messages: Iterable[str]) -> None:
     """Each as a :class:`LossWarning`."""
     for message in messages:
-        warnings.warn(message, LossWarning, stacklevel=_levels())
+        warnings.warn(as_typed_here(message), LossWarning, stacklevel=_levels())

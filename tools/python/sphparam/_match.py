@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, List, Optional, Sequence, Tuple, Union
 
 from . import _arrays, _core
+from ._attributes import document
 from ._figures import Distortion
 from ._losses import tell
 from ._map_facts import mapped_of
@@ -210,15 +211,20 @@ def match(
     first, second = mapped_of(source, "source"), mapped_of(target, "target")
     options = {"energy": _arrays.text(energy, "energy"), "lambda": _arrays.real(weight, "weight"), "threads": _arrays.threads(threads)}
     options["search"] = landmarks is None and features is None
-    options["alike"] = bool(alike)
+    options["alike"] = _arrays.flag(alike, "alike")
     if alike and landmarks is not None:
         raise ValueError("alike: landmarks say already what lies where on both; leave one of the two out")
     pairs = [] if landmarks is None else _pairs(landmarks)
-    agreeing = None
+    agreeing, weighs = None, _arrays.real(feature_weight, "feature_weight")
+    if not 0 < weighs < float("inf"):
+        raise ValueError(f"feature_weight: more than 0 is needed, not {weighs}")
     if features is not None:
-        agreeing = (*_features(features, source, target), _arrays.real(feature_weight, "feature_weight"))
+        agreeing = (*_features(features, source, target), weighs)
     with told(progress) as report:
-        found = _core.match(first, second, pairs, agreeing, bool(mirror), options, report)
+        found = _core.match(first, second, pairs, agreeing, _arrays.flag(mirror, "mirror"), options, report)
     moved, least, made_by, residuals, confidence, agreement, warnings = found
     tell(warnings)
     return SurfaceMap(SphereMap._of(moved), target, least, made_by, residuals, confidence, agreement)
+
+
+document(globals())

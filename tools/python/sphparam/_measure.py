@@ -31,13 +31,13 @@ def measure(
     extremes
         False: RMS and mean alone, in half the time.
     """
-    samples, seed = _arrays.whole(samples, "samples", 1), _arrays.whole(seed, "seed", 0)
+    samples, seed = _arrays.whole(samples, "samples", 1, 2**63 - 1), _arrays.whole(seed, "seed", 0, 2**64 - 1)
     meshes = [any_mesh(mesh, None) for mesh in (first, second)]
     for mesh in meshes:
         mesh._require_sound()
     with told(progress) as report:
         found = _core.measure(
-            meshes[0]._source, meshes[1]._source, samples, seed, extremes, _arrays.threads(threads), report
+            meshes[0]._source, meshes[1]._source, samples, seed, _arrays.flag(extremes, "extremes"), _arrays.threads(threads), report
         )
     found["forth"], found["back"] = OneSided(**found["forth"]), OneSided(**found["back"])
     return Distance(**found)

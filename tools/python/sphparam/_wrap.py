@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple, Tuple
 
 from . import _arrays, _core
+from ._attributes import document
 from ._figures import Distance, OneSided
 from ._mesh import Mesh, any_mesh
 from ._progress import Progress, told
@@ -85,7 +86,7 @@ def wrap(
         "voxel": float(voxel),
         "resolution": _arrays.whole(resolution, "resolution", 0, 100_000),
         "distance": float(distance),
-        "largest": bool(largest),
+        "largest": _arrays.flag(largest, "largest"),
         "triangles": _arrays.whole(triangles, "triangles", 0, 100_000_000),
         "threads": _arrays.threads(threads),
     }
@@ -94,3 +95,6 @@ def wrap(
     apart = figures.pop("apart")
     apart["forth"], apart["back"] = OneSided(**apart["forth"]), OneSided(**apart["back"])
     return Wrap(mesh=Mesh._of(source), apart=Distance(**apart), **figures)
+
+
+document(globals())
