@@ -67,6 +67,32 @@ TEST_CASE("matched files: in the other shape, up is what the other file says") {
   CHECK(in_other_shape(SurfaceMap(upright, upright)).comments == file.comments);
 }
 
+TEST_CASE("matched files: in the other shape, the volume is that of the other file, or none") {
+  const MappedMesh plain = ball(2);
+  const auto at = [&](const std::string& centre) {
+    MeshFile file = plain.file();
+    file.comments = {"of its own", "freesurfer real_ras 1", "freesurfer geometry cras = " + centre};
+    return with_file(plain, file);
+  };
+  const MappedMesh here = at("1 2 3"), there = at("-40 -50 -60");
+  CHECK(in_other_shape(SurfaceMap(here, there)).comments == there.file().comments);
+  CHECK(in_other_shape(SurfaceMap(here, plain)).comments == std::vector<std::string>{"of its own"});
+  CHECK(mirror_image(here).file().comments == std::vector<std::string>{"of its own"});
+}
+
+TEST_CASE("matched files: in the other shape, normals and tangents of the old one go") {
+  MeshFile file = ball(2).file();
+  const Eigen::Index corners = file.mesh.triangles.size();
+  file.set_vertex_property(
+      {"nx", ScalarType::Float64, std::vector<double>(size_t(file.mesh.vertex_count()))});
+  file.corner_normals = CornerNormals::Zero(corners, 3);
+  file.corner_tangents = CornerTangents::Zero(corners, 4);
+  const MeshFile shown = in_other_shape(SurfaceMap(with_file(ball(2), file), ball(3)));
+  CHECK_FALSE(has(shown, "nx"));
+  CHECK_FALSE(shown.corner_normals);
+  CHECK_FALSE(shown.corner_tangents);
+}
+
 TEST_CASE(
     "matched files: a mirror image twice is the surface itself, its normals looking outward") {
   MeshFile file = ball(2).file();

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
 
@@ -169,6 +170,8 @@ TEST_CASE("harmonic_expansion: an ellipsoid is of degree 1, and comes back") {
 TEST_CASE("harmonic_expansion: what was turned says so, and no longer that it lies as a body") {
   MeshFile file = egg().file();
   file.mesh.positions.col(1) *= 1.2;
+  file.corner_tangents = CornerTangents::Zero(file.mesh.triangles.size(), 4);
+  file.comments = {"up axis y", "front axis z", "freesurfer geometry cras = 1 2 3"};
   const MappedMesh mapped({.file = file,
                            .map = {icosphere(2).positions},
                            .provenance = {{"method", "radial"},
@@ -180,13 +183,19 @@ TEST_CASE("harmonic_expansion: what was turned says so, and no longer that it li
   const HarmonicExpansion as_it_was = expand_in_harmonics(mapped, {}, {.degree = 3});
   Provenance lines = mapped.provenance();
   lines.emplace_back("harmonics", "3");
-  CHECK(read_provenance(reconstruction(mapped, as_it_was)) == lines);
+  const MeshFile there = reconstruction(mapped, as_it_was);
+  CHECK(read_provenance(there) == lines);
+  for (const std::string& comment : file.comments)
+    CHECK(std::ranges::count(there.comments, comment) == 1);
+  CHECK_FALSE(there.corner_tangents);
 
   HarmonicExpansion turned = as_it_was;
   align(turned, mapped, HarmonicAlignment::SphereAndSurface);
   const MeshFile back = reconstruction(mapped, turned);
   CHECK(read_provenance(back) ==
         Provenance{{"method", "radial"}, {"harmonics", "3"}, {"aligned", "first-order ellipsoid"}});
+  for (const std::string& comment : file.comments)
+    CHECK(std::ranges::count(back.comments, comment) == 0);
   const Points along = read_sphere(back)->points * Vector3(-1.5, -1.2, 1).asDiagonal();
   CHECK((back.mesh.positions - along).cwiseAbs().maxCoeff() < 1e-9);
 }

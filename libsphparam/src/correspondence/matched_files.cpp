@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "io/attributes/corner_colours.h"
+#include "io/attributes/other_coordinates.h"
 #include "io/attributes/weightiest_label.h"
 #include "sphparam/io/sphere_file.h"
-#include "sphparam/io/up_axis.h"
 
 namespace sphparam {
 namespace {
@@ -24,7 +24,6 @@ constexpr std::array not_carried = {"nx"sv,          "ny"sv,       "nz"sv,
                                     "target_face"sv, "target_0"sv, "target_1"sv,
                                     "target_2"sv};
 const std::vector<std::string> targets = {"target_face", "target_0", "target_1", "target_2"};
-const std::vector<std::string> normals = {"nx", "ny", "nz"};
 
 bool is_among(const auto& names, const std::string& name) {
   return std::ranges::find(names, name) != names.end();
@@ -90,6 +89,7 @@ void reflect(MeshFile& file) {
     file.corner_tangents->col(0) *= -1;
     file.corner_tangents->col(3) *= -1;  // the bitangent is w · N × T
   }
+  take_volume(file, {});  // it has no mirror image
 }
 
 }  // namespace
@@ -122,10 +122,7 @@ MappedMesh with_targets(const SurfaceMap& map, int threads) {
 
 MeshFile in_other_shape(const SurfaceMap& map, int threads) {
   MeshFile file = without_correspondence(map.from().file());
-  file.mesh = map.from_on_to(threads);
-  take_up(file, map.to().file());
-  remove_properties(file.vertex_properties, normals);
-  file.corner_normals.reset();
+  move_into(file, map.to().file(), map.from_on_to(threads).positions);
   return file;
 }
 

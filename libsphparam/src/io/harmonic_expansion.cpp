@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "io/attributes/other_coordinates.h"
 #include "sphere/solid_angle.h"
 #include "sphparam/errors.h"
 #include "sphparam/io/certified_files.h"
@@ -117,10 +118,8 @@ void align(HarmonicExpansion& expansion, const MappedMesh& mapped, HarmonicAlign
 
 MeshFile reconstruction(const MappedMesh& mapped, const HarmonicExpansion& expansion) {
   MeshFile file = mapped.file();
-  file.mesh.positions = expansion.values.leftCols(axes);
-  file.position_type = ScalarType::Float64;
-  file.corner_normals.reset();
-  remove_properties(file.vertex_properties, {"nx", "ny", "nz"});
+  const bool is_turned = expansion.aligned == HarmonicAlignment::SphereAndSurface;
+  move_into(file, is_turned ? MeshFile{} : mapped.file(), expansion.values.leftCols(axes));
   for (Eigen::Index k = axes; k < expansion.values.cols(); ++k) {
     const VectorX column = expansion.values.col(k);
     file.set_vertex_property({expansion.functions[static_cast<size_t>(k)], ScalarType::Float64,

@@ -23,8 +23,7 @@ constexpr std::array ray_names = {"sx", "sy", "sz"};
 /// What holds for the sphere too: which hemisphere it is, which brain viewers ask for, and of which
 /// volume.
 bool is_of_sphere(std::string_view comment) {
-  return comment.starts_with("gifti AnatomicalStructurePrimary") ||
-         comment.starts_with(freesurfer_geometry) || comment.starts_with(freesurfer_real_ras);
+  return comment.starts_with("gifti AnatomicalStructurePrimary") || is_of_volume(comment);
 }
 
 void replace_provenance(MeshFile& file, const Provenance& provenance) {

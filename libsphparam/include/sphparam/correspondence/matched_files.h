@@ -10,9 +10,9 @@ namespace sphparam {
 /// target_face and target_0, target_1, target_2, the barycentric weights of its corners.
 MappedMesh with_targets(const SurfaceMap& map, int threads = 0);
 
-/// The triangles of `from`, with what its vertices carry, in the shape of `to`; without normals,
-/// which would be those of the other shape; the axis that points up is that of `to`, whose
-/// coordinates these are.
+/// The triangles of `from`, with what its vertices carry, in the shape of `to`; without normals and
+/// tangents, which would be those of the other shape; the axis that points up and the volume of
+/// FreeSurfer are those of `to`, whose coordinates these are.
 MeshFile in_other_shape(const SurfaceMap& map, int threads = 0);
 
 /// The names of what vertices of this file carry that has a meaning on another surface.
@@ -24,7 +24,8 @@ std::vector<std::string> names_of_values(const MeshFile& file);
 MeshFile with_other_values(const SurfaceMap& map, int threads = 0);
 
 /// The mesh reflected in the plane x = 0, its triangles turned round so that they look outward, and
-/// its map with it. What corners carry goes along.
+/// its map with it. What corners carry goes along; a volume of FreeSurfer, which has no mirror
+/// image, goes.
 MappedMesh mirror_image(const MappedMesh& mapped, int threads = 0);
 
 }  // namespace sphparam

@@ -65,7 +65,8 @@ void align(HarmonicExpansion& expansion, const MappedMesh& mapped, HarmonicAlign
 
 /// The mesh with the positions and scalars that the harmonics have at its vertices, and its map,
 /// as it was turned, with a line of provenance more; what said that the map lies as a body does
-/// goes where it was turned. Normals go: they were of the other surface.
+/// goes where it was turned, as does, where the surface was, what its coordinates are of: what
+/// points up, and a volume of FreeSurfer. Normals and tangents go: they were of the other surface.
 MeshFile reconstruction(const MappedMesh& mapped, const HarmonicExpansion& expansion);
 
 /// Adds it, in the format that the name asks for; where that keeps the map, what was written is
