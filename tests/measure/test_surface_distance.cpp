@@ -141,6 +141,12 @@ TEST_CASE("distance: vertices that no triangle uses do not count") {
   const SurfaceDistance distance = measure_distance(ball, icosphere(2), {.samples = 100});
   CHECK(distance.max() == 0);
   CHECK(distance.diagonal_first < 4);
+  // Nor for the size that lengths are told in.
+  ball.positions(ball.vertex_count() - 1, 0) = 1e200;
+  const SurfaceDistance apart =
+      measure_distance(ball, scaled(icosphere(2), 2), {.faces = false, .vertices = true});
+  CHECK(apart.forth.min > 0.8);
+  CHECK(apart.max() == Approx(1));
 }
 
 TEST_CASE("distance: what mean and RMS are taken over can be chosen") {

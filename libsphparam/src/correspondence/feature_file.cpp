@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <stdexcept>
+#include <system_error>
 
 #include "correspondence/feature_scales.h"
 #include "number_text.h"
@@ -52,7 +53,8 @@ Functions beside(const Functions& left, const Functions& right) {
 
 Functions read_features(const std::string& file_or_property, const MeshFile& mesh,
                         const ReadOptions& options) {
-  if (!std::filesystem::exists(file_or_property)) {
+  std::error_code error;  // a name that is too long is no file's
+  if (!std::filesystem::exists(file_or_property, error)) {
     if (const Property* const property = property_of(mesh, file_or_property)) {
       require_measure(*property);
       return columns_of(mesh, {file_or_property});

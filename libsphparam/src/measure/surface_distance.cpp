@@ -214,8 +214,7 @@ void require_measurable(const TriangleMesh& mesh, Side side) {
 /// A power of two that brings the largest coordinate near 1, where squares would not be numbers;
 /// else 1.
 double common_scale(const TriangleMesh& first, const TriangleMesh& second) {
-  const double largest =
-      std::max(first.positions.cwiseAbs().maxCoeff(), second.positions.cwiseAbs().maxCoeff());
+  const double largest = std::max(largest_coordinate(first), largest_coordinate(second));
   if (largest == 0 || (largest > smallest_unscaled && largest < largest_unscaled)) return 1;
   return std::ldexp(1.0, -std::clamp(std::ilogb(largest), -1000, 1000));
 }
