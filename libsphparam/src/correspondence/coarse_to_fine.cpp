@@ -132,6 +132,15 @@ KeptVertices kept(const std::vector<Pin>& landmarks) {
 
 }  // namespace
 
+std::vector<Vertex> names_on_finest(const MeshHierarchy& levels, size_t level) {
+  std::vector<Vertex> names(at(levels[level].vertex_count()));
+  for (Vertex v = 0; v < std::ssize(names); ++v) {
+    names[at(v)] = v;
+    for (size_t l = level; l > 0; --l) names[at(v)] = levels[l].finer[at(names[at(v)])];
+  }
+  return names;
+}
+
 CoarseToFine::CoarseToFine(const TriangleMesh& source, const Topology& topology,
                            const TargetSurface& target, const ComposedOptions& options)
     : target_(target), options_(options) {
@@ -208,7 +217,7 @@ double CoarseToFine::start_at(const SphereMap& map) {
   level_ = level_of(turned_start_vertices);
   std::optional<SphereMap> own = embedded(level_, {});
   if (!own) level_ = 0;
-  const std::vector<Vertex> names = names_on_finest(level_);
+  const std::vector<Vertex> names = names_on_finest(hierarchy_, level_);
   Points wanted(std::ssize(names), 3);
   for (Vertex v = 0; v < wanted.rows(); ++v) wanted.row(v) = map.points.row(names[at(v)]);
   places_ = places_of(
@@ -216,16 +225,6 @@ double CoarseToFine::start_at(const SphereMap& map) {
       target_);
   settle(level_, start_steps);
   return energy_;
-}
-
-/// The names that a level's vertices have on the finest.
-std::vector<Vertex> CoarseToFine::names_on_finest(size_t level) const {
-  std::vector<Vertex> names(at(hierarchy_[level].vertex_count()));
-  for (Vertex v = 0; v < std::ssize(names); ++v) {
-    names[at(v)] = v;
-    for (size_t l = level; l > 0; --l) names[at(v)] = hierarchy_[l].finer[at(names[at(v)])];
-  }
-  return names;
 }
 
 /// A map of the level that has the landmarks; false: they could not be reached.
@@ -269,7 +268,7 @@ void CoarseToFine::settle(size_t level, int most_steps) {
   const Topology topology(mesh, options_.threads);
   const RestTriangles rest = rest_of(mesh, options_.threads);
   MovingSurface surface(topology, rest, target_, held_on(level), std::move(places_),
-                        feature_term(features(), names_on_finest(level), mesh, rest));
+                        feature_term(features(), names_on_finest(hierarchy_, level), mesh, rest));
   energy_ = lower(surface, most_steps, options_);
   newton_level_ = hierarchy_[level].vertex_count();
   places_ = surface.places();
@@ -300,7 +299,7 @@ bool CoarseToFine::climb_to(size_t l) {
   const Topology topology(mesh, options_.threads);
   const RestTriangles rest = rest_of(mesh, options_.threads);
   MovingSurface surface(topology, rest, target_, held_on(l), std::move(places),
-                        feature_term(features(), names_on_finest(l), mesh, rest));
+                        feature_term(features(), names_on_finest(hierarchy_, l), mesh, rest));
   parallel_for(std::ssize(level.removed), insertion_grain, options_.threads,
                [&](std::int64_t first, std::int64_t last) {
                  for (auto i = first; i < last; ++i)

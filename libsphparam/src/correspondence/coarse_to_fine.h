@@ -14,6 +14,9 @@
 
 namespace sphparam {
 
+/// The names that a level's vertices have on the finest.
+std::vector<Vertex> names_on_finest(const MeshHierarchy& levels, size_t level);
+
 struct ComposedOptions {
   ComposedEnergy energy = {};
   std::vector<Pin> landmarks = {};  // vertices of the source and the directions that they get
@@ -58,7 +61,6 @@ class CoarseToFine {
   std::optional<double> try_from(size_t level, size_t last);
   bool start_on(size_t level);
   std::optional<SphereMap> embedded(size_t level, const std::vector<Pin>& pins) const;
-  std::vector<Vertex> names_on_finest(size_t level) const;
   bool climb_to(size_t level);
   bool insert(size_t level, std::vector<Place>& places) const;
   void settle(size_t level, int most_steps);

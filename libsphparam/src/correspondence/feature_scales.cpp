@@ -7,8 +7,8 @@
 
 #include "correspondence/surface_area.h"
 #include "elementary.h"
+#include "mesh/flat_face.h"
 #include "mesh/surface_average.h"
-#include "mesh/triangle_geometry.h"
 
 namespace sphparam {
 namespace {
@@ -19,10 +19,7 @@ constexpr double least_share = 1e-9;                   // of the mean area of a 
 
 VectorX face_areas(const TriangleMesh& mesh) {
   VectorX areas(mesh.face_count());
-  for (Face f = 0; f < mesh.face_count(); ++f) {
-    const auto corner = [&](int k) { return mesh.position(mesh.triangles(f, k)); };
-    areas[f] = triangle_area(corner(0), corner(1), corner(2));
-  }
+  for (Face f = 0; f < mesh.face_count(); ++f) areas[f] = face_area(mesh, f);
   return areas;
 }
 

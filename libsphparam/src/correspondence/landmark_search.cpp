@@ -47,15 +47,6 @@ size_t complete_down_to(MeshHierarchy& levels, int vertices, int threads) {
   return level;
 }
 
-std::vector<Vertex> names_on_finest(const MeshHierarchy& levels, size_t level) {
-  std::vector<Vertex> names(at(levels[level].vertex_count()));
-  for (Vertex v = 0; v < std::ssize(names); ++v) {
-    names[at(v)] = v;
-    for (size_t l = level; l > 0; --l) names[at(v)] = levels[l].finer[at(names[at(v)])];
-  }
-  return names;
-}
-
 SmallSurface small_surface(const MappedMesh& mapped, int threads) {
   MeshHierarchy levels = build_hierarchy(mapped.mesh(), mapped.topology(), threads);
   const size_t level = complete_down_to(levels, small_vertices, threads);

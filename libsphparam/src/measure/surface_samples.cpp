@@ -8,6 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "mesh/flat_face.h"
 #include "rays/random_numbers.h"
 
 namespace sphparam {
@@ -19,17 +20,9 @@ double random_of(std::uint64_t seed, std::int64_t sample, int which) {
       seed, 4 * static_cast<std::uint64_t>(sample) + static_cast<std::uint64_t>(which));
 }
 
-double face_area(const TriangleMesh& mesh, Eigen::Index face) {
-  const auto corners = mesh.triangles.row(face);
-  const Vector3 a = mesh.position(corners[0]);
-  return (mesh.position(corners[1]) - a).cross(mesh.position(corners[2]) - a).norm() / 2;
-}
-
 std::vector<double> face_areas(const TriangleMesh& mesh) {
   std::vector<double> areas(static_cast<size_t>(mesh.face_count()));
-  for (size_t f = 0; f < areas.size(); ++f) {
-    areas[f] = face_area(mesh, static_cast<Eigen::Index>(f));
-  }
+  for (Face f = 0; f < mesh.face_count(); ++f) areas[static_cast<size_t>(f)] = face_area(mesh, f);
   return areas;
 }
 

@@ -18,6 +18,11 @@ inline bool is_flat(const Vector3& a, const Vector3& b, const Vector3& c) {
   return triangle_area(a, b, c) <= flat_area * longest;
 }
 
+inline double face_area(const TriangleMesh& mesh, Face face) {
+  const auto corner = [&](int k) { return mesh.position(mesh.triangles(face, k)); };
+  return triangle_area(corner(0), corner(1), corner(2));
+}
+
 /// Whether any triangle has area, at any size that doubles have. Requires: faces name vertices that
 /// are there.
 bool has_area(const TriangleMesh& mesh);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "io/attributes/weightiest_label.h"
+#include "mesh/flat_face.h"
 #include "remesh/flat_places.h"
 #include "remesh/float32_places.h"
 #include "sphparam/parallel.h"
@@ -154,9 +155,8 @@ Gather barycentric_weights(const MappedMesh& current, const Points& directions, 
 
 VectorX vertex_areas(const TriangleMesh& mesh) {
   VectorX areas = VectorX::Zero(mesh.vertex_count());
-  for (Eigen::Index f = 0; f < mesh.face_count(); ++f) {
-    const auto corner = [&](int k) { return mesh.position(mesh.triangles(f, k)); };
-    const double third = (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm() / 6;
+  for (Face f = 0; f < mesh.face_count(); ++f) {
+    const double third = face_area(mesh, f) / 3;
     for (int k = 0; k < 3; ++k) areas[mesh.triangles(f, k)] += third;
   }
   return areas;
