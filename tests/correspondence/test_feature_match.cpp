@@ -179,6 +179,21 @@ TEST_CASE("match by features: what is known of a part of one side alone is compa
   CHECK(both.warnings.empty());
 }
 
+TEST_CASE("match by features: beside landmarks, too, what one side knows alone is left out") {
+  const MappedMesh to = ball(4);
+  const MappedMesh from = turned_map(to, rotation_by(2.5));
+  Functions here = values_at(to.mesh().positions, as_it_is);
+  here += 3 * to.mesh().positions.col(0);
+  const Functions there = here;
+  for (Vertex v = 0; v < here.rows(); ++v)
+    if (to.mesh().position(v).z() < -1.0 / 3) here(v, 0) = std::numeric_limits<double>::quiet_NaN();
+  MatchOptions options{.features = MatchFeatures{here, there, 20}};
+  for (const Vertex v : {0, 3, 5, 8}) options.landmarks.push_back({v, v});
+  const Match match = match_surfaces(from, to, options);
+  CHECK(error_of(match, as_it_is) < 0.05);
+  CHECK(match.agreement > 0.99);
+}
+
 TEST_CASE("match by features: a sign that is the opposite on one side is told") {
   const MappedMesh from = ball(3), to = ball(3);
   MatchFeatures features = twisted_features(from, to, 2);
@@ -268,6 +283,7 @@ TEST_CASE("feature files: columns of a file, or a property of the mesh") {
   mesh.vertex_properties.push_back({.name = "sulc", .values = data.columns[0].values});
   CHECK(read_features("sulc", mesh).col(0) == columns.col(0));
   CHECK_THROWS_AS(read_features("curv", mesh), ReadError);
+  CHECK_THROWS_AS(read_features(std::string(5000, 'x'), mesh), ReadError);
   MeshFile other;
   other.mesh = octahedron();
   CHECK_THROWS_AS(read_features(path, other), ReadError);

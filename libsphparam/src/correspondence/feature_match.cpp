@@ -22,8 +22,9 @@ namespace {
 
 constexpr int most_turns = 4, most_shape_turns = 8, most_shared_turns = 8;
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-constexpr int last_steps = 6;  // of Newton, at most, between the surfaces
-constexpr int starts = 3;      // with landmarks
+constexpr int last_steps = 6;            // of Newton, at most, between the surfaces
+constexpr int starts = 3;                // with landmarks
+constexpr size_t telling_landmarks = 2;  // fewer tell no turn
 
 TriangleMesh sphere_of(const MappedMesh& mapped) {
   const TriangleMesh& mesh = mapped.mesh();
@@ -47,8 +48,8 @@ FeatureTurns turns_by_features(const MappedMesh& from, const MappedMesh& to,
 /// Whether a feature is known on clearly more of one side than of the other. Parts that both leave
 /// out are taken to be the same: where these lie tells the turn, too.
 bool is_one_sided(const MatchFeatures& features, const MappedMesh& from, const MappedMesh& to) {
-  const VectorX from_area = areas_round_vertices(from.mesh());
-  const VectorX to_area = areas_round_vertices(to.mesh());
+  const VectorX from_area = areas_round_vertices(from.surface());
+  const VectorX to_area = areas_round_vertices(to.surface());
   for (Eigen::Index c = 0; c < features.from.cols(); ++c)
     if (std::abs(known_share(features.from.col(c), from_area) -
                  known_share(features.to.col(c), to_area)) > telling_share)
@@ -167,7 +168,7 @@ VectorX agreement_of(const MappedMesh& from, const TargetSurface& target, const 
     for (int k = 0; k < 3; ++k)
       there.row(v) += place.at.barycentric[k] * field.to.row(target.corner(place, k));
   }
-  const VectorX area = areas_round_vertices(from.mesh());
+  const VectorX area = areas_round_vertices(from.surface());
   VectorX agreement(there.cols());
   for (Eigen::Index c = 0; c < there.cols(); ++c)
     agreement[c] = correlation_of(field.from.col(c), there.col(c), area);
@@ -198,6 +199,8 @@ FeatureMatch match_by_features(const MappedMesh& from, const MappedMesh& to,
   CoarseToFine way(from_sphere, from.topology(), sphere, with_features);
   FeatureMatch result;
   if (!options.landmarks.empty()) {
+    if (options.landmarks.size() >= telling_landmarks)
+      prepare(best_rotation(from.map(), options.landmarks));
     if (!way.start(starts)) return {std::nullopt, way.residuals()};
   } else if (alike) {
     const std::vector<TurnOfFunctions> turns = turns_by_stance(from, to, options.threads);
