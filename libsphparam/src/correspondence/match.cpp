@@ -98,8 +98,8 @@ std::optional<std::string> collapse_of(const SurfaceMap& map, int threads) {
 /// A feature that is known of more of one surface than of the other.
 std::optional<std::string> one_sided(const MatchFeatures& features, const MappedMesh& from,
                                      const MappedMesh& to) {
-  const VectorX from_area = areas_round_vertices(from.mesh());
-  const VectorX to_area = areas_round_vertices(to.mesh());
+  const VectorX from_area = areas_round_vertices(from.surface());
+  const VectorX to_area = areas_round_vertices(to.surface());
   for (Eigen::Index c = 0; c < features.from.cols(); ++c) {
     const double here = known_share(features.from.col(c), from_area);
     const double there = known_share(features.to.col(c), to_area);
@@ -196,21 +196,27 @@ class Matcher {
                                 " with these landmarks was found: " + words_of(residuals));
   }
 
-  /// From ends that are paired, or, where there are none, from a turn.
+  /// From ends that are paired, or, where there are none that a map reaches, from a turn.
   SphereMap searched() {
     suggestions_ = suggest_landmarks(from_, to_, target_, composed_, options_.alike);
-    if (suggestions_.empty()) return by_turn();
+    if (suggestions_.empty()) return by_turn("neither has three ends");
     composed_.landmarks = pins_of(suggestions_.front().landmarks, to_);
     composed_.release = true;
-    tell_confidence(confidence_of(suggestions_), "another pairing of the surfaces' ends fits");
-    return coarse_to_fine();
+    try {
+      SphereMap map = coarse_to_fine();
+      tell_confidence(confidence_of(suggestions_), "another pairing of the surfaces' ends fits");
+      return map;
+    } catch (const UnreachableLandmarks&) {  // nobody gave them
+      suggestions_.clear();
+      composed_.landmarks.clear();
+      return by_turn("no map has the ends that were paired");
+    }
   }
 
-  SphereMap by_turn() {
+  SphereMap by_turn(const std::string& why) {
     made_by_ = "turn";
     TurnedMatch found = match_by_turn(from_, to_, target_, composed_, options_.alike);
-    tell_confidence(found.confidence,
-                    "neither has three ends, and their maps fit after another turn");
+    tell_confidence(found.confidence, why + ", and their maps fit after another turn");
     return std::move(found.map);
   }
 

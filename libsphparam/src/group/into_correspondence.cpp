@@ -1,6 +1,5 @@
 #include "group/into_correspondence.h"
 
-#include <optional>
 #include <utility>
 
 #include "correspondence/surface_area.h"
@@ -73,14 +72,11 @@ Brought from_match(Match match, std::string start) {
           .warnings = std::move(match.warnings)};
 }
 
-std::optional<Brought> by_ends(const GroupTarget& target, const MappedMesh& shape,
-                               MatchOptions options) try {
+Brought by_ends(const GroupTarget& target, const MappedMesh& shape, MatchOptions options) {
   options.search = true;
   Brought found = from_match(match_surfaces(shape, target.mapped, options), "ends");
   std::swap(found.doubts, found.warnings);
   return found;
-} catch (const UnreachableLandmarks&) {  // it has none
-  return std::nullopt;
 }
 
 }  // namespace
@@ -101,8 +97,7 @@ GroupTarget group_target(const MappedMesh& mapped, GroupStart start, bool alike,
 
 Brought bring_to(const GroupTarget& target, const MappedMesh& shape, GroupStart start, bool hold,
                  const MatchOptions& options) {
-  if (start == GroupStart::Ends && !hold)
-    if (std::optional<Brought> found = by_ends(target, shape, options)) return *std::move(found);
+  if (start == GroupStart::Ends && !hold) return by_ends(target, shape, options);
   Brought begun = start == GroupStart::Maps ? Brought{.mapped = shape, .start = "its map"}
                   : start == GroupStart::Ellipsoid
                       ? by_ellipsoid(target, shape, options.threads)

@@ -26,8 +26,8 @@ struct MatchFeatures {
 
 struct MatchOptions {
   std::vector<LandmarkPair> landmarks = {};  // held exactly; no vertex twice on either side
-  /// For landmarks, to start from, and where there are none for a turn; none are held. Requires:
-  /// none are given.
+  /// For landmarks, to start from, and where there are none that a map has for a turn; none are
+  /// held. Requires: none are given.
   bool search = false;
   /// `from` and `to` lie alike in space, as files of one rig or scanner do: a search is also judged
   /// by how well places agree, in their coordinates; with features, the first turn is by that
@@ -68,7 +68,7 @@ struct Match {
   std::vector<std::string> warnings;
 };
 
-/// Landmarks that no match has. The program ends with exit code 5.
+/// Landmarks that were given and that no match has. The program ends with exit code 5.
 class UnreachableLandmarks : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
