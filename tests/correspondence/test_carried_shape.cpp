@@ -3,6 +3,7 @@
 
 #include "sphparam/correspondence/carried_shape.h"
 #include "sphparam/parameterize.h"
+#include "support/capped.h"
 #include "support/test_meshes.h"
 
 namespace sphparam::tests {
@@ -21,7 +22,39 @@ MappedMesh ball(int level, double arm = 0) {
   return MappedMesh({.file = std::move(file), .map = std::move(map)});
 }
 
+/// An egg whose cap closes a hole that was kept.
+MappedMesh capped_egg(double cap, double length = 1) {
+  TriangleMesh egg = icosphere(3);
+  egg.positions.col(0) *= length;
+  return capped(std::move(egg), icosphere(3).positions, cap);
+}
+
 }  // namespace
+
+TEST_CASE("carried shape: fillers are no surface, wherever they lie") {
+  const CarriedFidelity flat = measure_carried({capped_egg(1), capped_egg(1, 2)}),
+                        high = measure_carried({capped_egg(1.4), capped_egg(3, 2)});
+  CHECK(high.farthest == Approx(flat.farthest).margin(1e-9));
+  CHECK(high.rms == Approx(flat.rms).margin(1e-9));
+  CHECK(high.area_share == Approx(flat.area_share));
+}
+
+TEST_CASE("surface map: fillers are in no figure of its distortion, wherever they lie") {
+  const auto figures = [](double first_cap, double second_cap) {
+    return summarise_distortion({capped_egg(first_cap), capped_egg(second_cap, 2)});
+  };
+  const DistortionSummary flat = figures(1, 1), high = figures(1.4, 3);
+  CHECK(flat.mean_abs_ln_area > 0.1);
+  CHECK(high.mean_abs_ln_area == Approx(flat.mean_abs_ln_area));
+  CHECK(high.mean_abs_ln_angle == Approx(flat.mean_abs_ln_angle));
+  CHECK(high.symmetric_dirichlet == Approx(flat.symmetric_dirichlet));
+  CHECK(high.area_ratio_max == Approx(flat.area_ratio_max));
+  CHECK(high.flat_faces == 0);
+  const SurfaceMap map(capped_egg(1.4), capped_egg(3, 2));
+  const Distortion distortion = measure_distortion(map);
+  CHECK(distortion.source_area.sum() == Approx(1));
+  CHECK(distortion.source_area.dot(distortion.area_ratio) == Approx(1));
+}
 
 TEST_CASE("carried shape: vertices lie on the other surface, normals are its own there") {
   const SurfaceMap map(ball(2), ball(4));

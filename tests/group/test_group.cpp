@@ -6,7 +6,9 @@
 #include "sphparam/errors.h"
 #include "sphparam/group/group.h"
 #include "sphparam/parameterize.h"
+#include "sphparam/remesh/resample.h"
 #include "sphparam/sphere/certificate.h"
+#include "support/capped.h"
 #include "support/mapped.h"
 #include "support/test_meshes.h"
 
@@ -77,7 +79,7 @@ double size_by_area(const TriangleMesh& mesh) {
   return std::sqrt(second / area - (first / area).squaredNorm());
 }
 
-double rms(const Points& a, const Points& b) {
+double rms(const MatrixX& a, const MatrixX& b) {
   return std::sqrt((a - b).squaredNorm() / static_cast<double>(a.rows()));
 }
 
@@ -288,6 +290,53 @@ TEST_CASE("group: shapes on the grid have what their vertices have, but normals"
     CHECK(on_grid.file().find_vertex_property("nx") == nullptr);
   }
   CHECK(group.mean.file().vertex_properties.empty());
+}
+
+TEST_CASE("group: fillers of kept holes have no weight, wherever they lie") {
+  const Points sphere = grid_sphere(small_grid).positions;
+  const auto made = [&](double cap) {
+    std::vector<MappedMesh> shapes;
+    for (const double length : {2.0, 3.0, 4.0})
+      shapes.push_back(capped(bumpy(small_grid, length), sphere, cap));
+    return make_group(shapes, shapes[1],
+                      {.start = GroupStart::Maps, .hold = true, .grid = small_grid});
+  };
+  const Group flat = made(1), high = made(3);
+  CHECK((flat.weights - high.weights).cwiseAbs().maxCoeff() < 1e-12);
+  CHECK(rms(flat.distances, high.distances) < 1e-9);
+  const VectorX areas = vertex_areas(high.members[0].resampled.surface());
+  for (Vertex v = 0; v < areas.size(); ++v)
+    if (areas[v] == 0) CHECK(high.weights[v] == 0);
+  CHECK(high.weights.sum() == Approx(1));
+  for (size_t i = 0; i < 3; ++i) CHECK(high.members[i].resampling_max < 1e-12);
+}
+
+TEST_CASE("group: a shape whose area is beyond doubles is refused by its name") {
+  TriangleMesh mesh = grid_sphere(small_grid);
+  const SphereMap sphere{mesh.positions};
+  const MappedMesh ball = mapped(mesh, sphere);
+  mesh.positions *= 1e110;
+  const GroupOptions options{.start = GroupStart::Maps, .hold = true, .grid = small_grid};
+  for (const auto& [shape, reference] :
+       {std::pair(mapped(mesh, sphere), ball), {ball, mapped(mesh, sphere)}})
+    CHECK_THROWS_AS(make_group({shape, ball}, reference, options), UnmeasurableMesh);
+}
+
+TEST_CASE("group: shapes on the mean lie in the volume of the template") {
+  const TriangleMesh mesh = grid_sphere(small_grid);
+  const auto at = [&](const std::string& centre) {
+    MeshFile file;
+    file.mesh = mesh;
+    file.comments = {"freesurfer geometry cras = " + centre};
+    return MappedMesh({.file = std::move(file), .map = {mesh.positions}});
+  };
+  const std::vector<MappedMesh> shapes = {at("1 2 3"), at("4 5 6")};
+  const Group group = make_group(shapes, at("7 8 9"),
+                                 {.start = GroupStart::Maps, .hold = true, .grid = small_grid});
+  const std::vector<std::string> of_template = {"freesurfer geometry cras = 7 8 9"};
+  CHECK(group.mean.file().comments == of_template);
+  CHECK(aligned_shape(group, 0).file().comments == of_template);
+  CHECK(group.members[0].resampled.file().comments == shapes[0].file().comments);
 }
 
 TEST_CASE("group: the same bits for any number of threads") {

@@ -129,7 +129,7 @@ int run_match(MatchArguments& arguments) {
                      .match = found,
                      .options = arguments.options,
                      .mirrored = arguments.mirror,
-                     .distortion = summarise(measure_distortion(found.map, session.threads()))};
+                     .distortion = summarise_distortion(found.map, session.threads())};
   record.outputs = add_outputs(arguments, found, session);
   record.carried = fidelity(arguments, found, session);
   record.seconds = session.stopwatch.seconds();

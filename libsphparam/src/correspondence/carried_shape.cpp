@@ -56,8 +56,8 @@ Similarity placement_on(const SurfaceMap& map, Placement placement, int threads)
   require_area(map.to());
   const Points& here = map.from().mesh().positions;
   const Points there = map.from_on_to(threads).positions;
-  const VectorX weights = areas_round_vertices(map.from().mesh());
-  const double area = surface_area(map.from().mesh()), other = surface_area(map.to().mesh());
+  const VectorX weights = areas_round_vertices(map.from().surface());
+  const double area = surface_area(map.from().surface()), other = surface_area(map.to().surface());
   const Vector3 middle = mean(here, weights), other_middle = mean(there, weights);
   result.rotation = nearest_rotation(there.rowwise() - other_middle.transpose(),
                                      here.rowwise() - middle.transpose(), weights / area);
@@ -67,13 +67,13 @@ Similarity placement_on(const SurfaceMap& map, Placement placement, int threads)
 }
 
 CarriedFidelity measure_carried(const SurfaceMap& map, int threads, const Progress& progress) {
-  const TriangleMesh carried = map.from_on_to(threads);
-  const SurfaceDistance distance =
-      measure_distance(map.to().mesh(), carried,
-                       {.samples = fidelity_samples, .threads = threads, .progress = progress});
+  const TriangleMesh carried{map.from_on_to(threads).positions, map.from().surface().triangles};
+  const TriangleMesh& other = map.to().surface();
+  const SurfaceDistance distance = measure_distance(
+      other, carried, {.samples = fidelity_samples, .threads = threads, .progress = progress});
   return {.farthest = distance.forth.max / distance.diagonal_first,
           .rms = distance.forth.rms / distance.diagonal_first,
-          .area_share = surface_area(carried) / surface_area(map.to().mesh())};
+          .area_share = surface_area(carried) / surface_area(other)};
 }
 
 }  // namespace sphparam

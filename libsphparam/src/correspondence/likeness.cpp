@@ -10,6 +10,7 @@
 #include "correspondence/surface_area.h"
 #include "number_text.h"
 #include "sphparam/correspondence/surface_map.h"
+#include "sphparam/measure/measurable.h"
 #include "sphparam/parallel.h"
 #include "sphparam/version.h"
 
@@ -27,10 +28,6 @@ constexpr double least_progress = 1e-3;   // of a round, of what is left of the 
 constexpr double tolerable_density = 20;  // of the energy, an isometry's is 2: no step goes beyond
 constexpr double parts_of_way[] = {1, 0.5, 0.25, 0.125};
 constexpr double in_place = 1e-9;  // radians
-
-double diagonal_of(const TriangleMesh& mesh) {
-  return (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).norm();
-}
 
 /// The value that half of the weight is at or below.
 double weighted_median(const std::vector<double>& values, const VectorX& weights) {
@@ -52,8 +49,8 @@ class Liker {
         options_(options),
         target_(other),
         near_(near_places(mesh, other, options.threads)),
-        areas_(areas_round_vertices(mesh.mesh())),
-        diagonal_(diagonal_of(other.mesh())) {}
+        areas_(areas_round_vertices(mesh.surface())),
+        diagonal_(diagonal_of(other.mesh().positions)) {}
 
   Likeness run() {
     require_near();

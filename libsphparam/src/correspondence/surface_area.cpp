@@ -2,18 +2,10 @@
 
 #include <cmath>
 
-#include "mesh/triangle_geometry.h"
+#include "mesh/flat_face.h"
 #include "sphparam/errors.h"
 
 namespace sphparam {
-namespace {
-
-double face_area(const TriangleMesh& mesh, Face f) {
-  const auto corner = [&](int k) { return mesh.position(mesh.triangles(f, k)); };
-  return triangle_area(corner(0), corner(1), corner(2));
-}
-
-}  // namespace
 
 double surface_area(const TriangleMesh& mesh) {
   double area = 0;
@@ -38,7 +30,7 @@ Points stance_of(const TriangleMesh& mesh) {
 }
 
 void require_area(const MappedMesh& mapped) {
-  const double area = surface_area(mapped.mesh());
+  const double area = surface_area(mapped.surface());
   if (area > 0 && std::isfinite(area)) return;
   throw UnmeasurableMesh(mapped.name() + ": the surface has no area that can be measured");
 }

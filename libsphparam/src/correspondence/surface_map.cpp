@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "correspondence/composed_energy.h"
 #include "correspondence/target_surface.h"
@@ -20,6 +21,17 @@ constexpr std::int64_t face_grain = 1024;
 double angle_at(const ImageTriangle& x, int corner) {
   const auto point = [&](int k) { return x[static_cast<size_t>((corner + k) % 3)]; };
   return angle_between(point(1) - point(0), point(2) - point(0));
+}
+
+/// Scaled to where the surface, without fillers, has the area of the sphere.
+RestTriangles source_of(const MappedMesh& mapped, int threads) {
+  RestTriangles rest = measure_source(mapped.mesh(), threads);
+  const FillerMarks& fillers = mapped.fillers();
+  if (fillers.empty()) return rest;
+  double area = 0;
+  for (size_t f = 0; f < rest.size(); ++f) area += fillers[f] ? 0 : rest[f].area;
+  for (RestTriangle& triangle : rest) triangle = scaled(triangle, 4 * std::numbers::pi / area);
+  return rest;
 }
 
 /// The larger one first; the smaller one without cancellation.
@@ -68,10 +80,11 @@ TriangleMesh SurfaceMap::from_on_to(int threads) const {
 
 Distortion measure_distortion(const SurfaceMap& map, int threads) {
   const TriangleMesh& mesh = map.from().mesh();
-  const Points from = scaled_to_sphere(mesh);
-  const TriangleMesh to{scaled_to_sphere(map.to().mesh()), map.to().mesh().triangles};
+  const FillerMarks& fillers = map.from().fillers();
+  const Points from = scaled_to_sphere(map.from().surface());
+  const TriangleMesh to{scaled_to_sphere(map.to().surface()), map.to().mesh().triangles};
   const std::vector<SurfacePoint> points = map.forth(threads);
-  const RestTriangles rest = measure_source(mesh, threads);
+  const RestTriangles rest = source_of(map.from(), threads);
   const Eigen::Index count = mesh.face_count();
   Distortion d{VectorX(count), RowTable<double, 3>(count, 3), VectorX(count), VectorX(count),
                VectorX(count)};
@@ -88,12 +101,20 @@ Distortion measure_distortion(const SurfaceMap& map, int threads) {
       d.sigma_max[f] = most;
       d.sigma_min[f] = least;
       d.area_ratio[f] = triangle_area(after[0], after[1], after[2]) / triangle.area;
-      d.source_area[f] = is_flat(before[0], before[1], before[2]) ? 0 : triangle.area;
+      const bool counts = fillers.empty() || !fillers[static_cast<size_t>(f)];
+      d.source_area[f] = counts && !is_flat(before[0], before[1], before[2]) ? triangle.area : 0;
       for (int k = 0; k < 3; ++k) d.angle_ratio(f, k) = angle_at(after, k) / angle_at(before, k);
     }
   });
   if (const double total = d.source_area.sum(); total > 0) d.source_area /= total;
   return d;
+}
+
+DistortionSummary summarise_distortion(const SurfaceMap& map, int threads) {
+  DistortionSummary summary = summarise(measure_distortion(map, threads), threads);
+  const FillerMarks& fillers = map.from().fillers();
+  summary.flat_faces -= std::ranges::count_if(fillers, [](unsigned char mark) { return mark; });
+  return summary;
 }
 
 }  // namespace sphparam

@@ -9,19 +9,22 @@
 #include <stdexcept>
 #include <utility>
 
+#include "correspondence/surface_area.h"
 #include "embedding/energy/energy_domain.h"
 #include "group/into_correspondence.h"
+#include "io/attributes/other_coordinates.h"
 #include "mesh/vertex_normals.h"
 #include "option_domain.h"
 #include "sphparam/correspondence/surface_map.h"
+#include "sphparam/errors.h"
 #include "sphparam/group/surface_size.h"
 #include "sphparam/parallel.h"
 #include "sphparam/remesh/remesh.h"
 #include "sphparam/remesh/resample.h"
 
-// Shapes are brought to the template side by side, each by one thread where there are enough of
-// them; then, round by round, to their mean on the grid, which starts where they are. The template
-// goes along, so that its vertices have directions at the end.
+// Shapes are brought to the template side by side, each by one thread, one alone by all; then,
+// round by round, to their mean on the grid, which starts where they are. The template goes along,
+// so that its vertices have directions at the end.
 
 namespace sphparam {
 namespace {
@@ -43,12 +46,8 @@ void require_sensible(const std::vector<MappedMesh>& shapes, const GroupOptions&
 class SideBySide {
  public:
   SideBySide(std::int64_t count, int threads, const Progress& progress)
-      : count_(count), threads_(resolve_threads(threads)), progress_(progress) {}
+      : count_(count), threads_(threads), progress_(progress) {}
 
-  /// For the work on one.
-  int inner_threads() const {
-    return static_cast<int>(std::max<std::int64_t>(1, threads_ / count_));
-  }
   /// One call at a time, by whoever works; what it tells is how many are done.
   Progress inner_progress(const char* stage) {
     return [this, stage](std::string_view, double) { return tell(stage, 0); };
@@ -78,12 +77,11 @@ class SideBySide {
   std::int64_t done_ = 0;
 };
 
-/// The triangles and the map of a mesh, at other points.
-MappedMesh with_positions(const MappedMesh& mesh, const Points& positions,
+/// The triangles and the map of a mesh, at points of the coordinates of another.
+MappedMesh with_positions(const MappedMesh& mesh, const MappedMesh& other, const Points& positions,
                           const std::string& name) {
   MeshFile file = mesh.file();
-  file.mesh.positions = positions;
-  file.position_type = ScalarType::Float64;
+  move_into(file, other.file(), positions);
   return MappedMesh({.file = std::move(file),
                      .map = mesh.map(),
                      .provenance = mesh.provenance(),
@@ -105,9 +103,10 @@ std::vector<std::string> values_of(const MeshFile& file) {
 void measure_resampling(GroupMember& member) {
   const TriangleMesh& mesh = member.mapped.mesh();
   const std::vector<SurfacePoint> points = SurfaceMap(member.mapped, member.resampled).forth(1);
-  const VectorX areas = vertex_areas(mesh);
+  const VectorX areas = vertex_areas(member.mapped.surface());
   double squares = 0, most = 0;
   for (Vertex v = 0; v < mesh.vertex_count(); ++v) {
+    if (areas[v] == 0) continue;  // of fillers alone
     const double square =
         (position(member.resampled.mesh(), points[at(v)]) - mesh.position(v)).squaredNorm();
     squares += areas[v] * square;
@@ -134,7 +133,7 @@ class GroupWork {
     for (int round = 0; round < options_.rounds && !options_.hold; ++round) {
       const std::vector<Points> positions = resampled(grid_of(brought_reference()));
       const MappedMesh mean =
-          with_positions(*resampled_reference_, aligned(positions).mean, "mean");
+          with_positions(*resampled_reference_, reference_, aligned(positions).mean, "mean");
       bring_all(mean, GroupStart::Maps, "mean");
     }
     return finished(
@@ -155,7 +154,7 @@ class GroupWork {
     target.mapped.locator();
     const MatchOptions match{.alike = options_.alike,
                              .energy = options_.energy,
-                             .threads = work.inner_threads(),
+                             .threads = options_.threads,
                              .progress = work.inner_progress(stage)};
     std::vector<std::optional<Brought>> brought(at(count()));
     work.run(stage, [&](size_t i) {
@@ -202,7 +201,10 @@ class GroupWork {
   VectorX weights() const {
     VectorX sum = VectorX::Zero(members_.front()->mesh().vertex_count());
     for (const auto& member : members_) {
-      const VectorX areas = vertex_areas(member->mesh());
+      const VectorX areas = vertex_areas(member->surface());
+      if (!(areas.sum() > 0))
+        throw UnmeasurableMesh(member->name() +
+                               ": nothing of its surface is left on the grid: try a finer --grid");
       sum += areas / areas.sum();
     }
     return sum / sum.sum();
@@ -247,7 +249,8 @@ class GroupWork {
     const VectorX weights_of = weights();
     Procrustes procrustes = aligned(positions);
     const MappedMesh reference = brought_reference();
-    const MappedMesh mean = with_positions(*resampled_reference_, procrustes.mean, "mean");
+    const MappedMesh mean =
+        with_positions(*resampled_reference_, reference_, procrustes.mean, "mean");
     ShapeModes modes = shape_modes(procrustes.shapes, procrustes.mean, weights_of, options_.modes,
                                    options_.threads);
     const int iterations = procrustes.iterations;
@@ -306,18 +309,20 @@ std::string name_of(GroupStart start) {
 Group make_group(const std::vector<MappedMesh>& shapes, const MappedMesh& reference,
                  const GroupOptions& options) {
   require_sensible(shapes, options);
+  for (const MappedMesh& shape : shapes) require_area(shape);
+  require_area(reference);
   return GroupWork(shapes, reference, options).run();
 }
 
 MappedMesh group_shape(const Group& group, int mode, double deviations) {
-  return with_positions(group.mean,
+  return with_positions(group.mean, group.mean,
                         along_mode(group.mean.mesh().positions, group.modes, mode, deviations),
                         "mean and " + std::to_string(deviations) + " deviations");
 }
 
 MappedMesh aligned_shape(const Group& group, size_t member) {
   const GroupMember& shape = group.members.at(member);
-  return with_positions(shape.resampled, shape.aligned, shape.mapped.name());
+  return with_positions(shape.resampled, group.mean, shape.aligned, shape.mapped.name());
 }
 
 std::vector<SurfacePoint> carried_to(const Group& group, size_t member,

@@ -94,7 +94,7 @@ py::tuple like(const Mapped& mesh, const Mapped& other, int threads, const py::o
 
 py::dict matched_distortion(const Mapped& from, const Mapped& to, int threads) {
   return as_dict(call(py::none(), [=, from = from, to = to](const Progress&) {
-    return summarise(measure_distortion(SurfaceMap(from.mesh(), to.mesh()), threads), threads);
+    return summarise_distortion(SurfaceMap(from.mesh(), to.mesh()), threads);
   }));
 }
 

@@ -44,8 +44,12 @@ std::vector<double> values_at(const TriangleMesh& mesh, const std::vector<double
 
 /// How the map distorts each triangle of `from`, whose image is taken to be the flat triangle of
 /// its corners' points on `to`. As `measure_distortion` has it: both surfaces are scaled to the
-/// same area; the areas are of flat triangles, without a sign.
+/// same area; the areas are of flat triangles, without a sign. Fillers are no surface: they do not
+/// count in the areas, and have the share 0, with which they are in no figure.
 /// Throws: UnmeasurableMesh where one has no area.
 Distortion measure_distortion(const SurfaceMap& map, int threads = 0);
+
+/// Its figures; fillers are not among the triangles that have no area.
+DistortionSummary summarise_distortion(const SurfaceMap& map, int threads = 0);
 
 }  // namespace sphparam

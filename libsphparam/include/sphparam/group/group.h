@@ -85,8 +85,9 @@ Group make_group(const std::vector<MappedMesh>& shapes, const MappedMesh& refere
 /// Throws: std::out_of_range for a mode that there is not.
 MappedMesh group_shape(const Group& group, int mode, double deviations);
 
-/// A member's shape on the mean, on the grid, with what `resampled` has. Throws: std::out_of_range
-/// for no member.
+/// A member's shape on the mean, on the grid, with what `resampled` has; what points up and the
+/// volume of FreeSurfer are those of the template, in whose coordinates it is.
+/// Throws: std::out_of_range for no member.
 MappedMesh aligned_shape(const Group& group, size_t member);
 
 /// Where vertices of the template are on a member.
