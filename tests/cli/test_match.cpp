@@ -288,6 +288,10 @@ TEST_CASE("match: what makes no sense is refused, and nothing is written") {
                                         "--landmarks", creatures.pairs, "-o", creatures.out});
   CHECK(alike.code == 2);
   CHECK_THAT(alike.err, Contains("--alike: --landmarks say already"));
+  // Before the meshes are read, which may take minutes to map.
+  write_bytes(creatures.pairs, "0 x\n");
+  write_bytes(creatures.first, "no mesh");
+  CHECK_THAT(creatures.match().err, Contains("pairs.txt:1:"));
 }
 
 TEST_CASE(

@@ -14,7 +14,7 @@ std::vector<LandmarkPair> parse(const std::string& text) {
   MeshFile first, second;
   first.mesh = icosahedron();
   second.mesh = octahedron();
-  return parse_landmarks(text, "pairs.txt", FileNumbers(first), FileNumbers(second));
+  return LandmarkFile(text, "pairs.txt").pairs(FileNumbers(first), FileNumbers(second));
 }
 
 }  // namespace
@@ -30,6 +30,12 @@ TEST_CASE("landmark files: a byte order mark before the first number is no part 
   CHECK(parse("\xEF\xBB\xBF"
               "0 5\n")
             .size() == 1);
+}
+
+TEST_CASE("landmark files: what is no pair is told before there are meshes") {
+  CHECK_THROWS_WITH(LandmarkFile("0 1\n0 x\n", "pairs.txt"), Contains("pairs.txt:2:"));
+  CHECK_THROWS_AS(LandmarkFile("/nowhere/pairs.txt"), ReadError);
+  CHECK_NOTHROW(LandmarkFile("0 1000000\n", "pairs.txt"));
 }
 
 TEST_CASE("landmark files: what is wrong is said with its line") {

@@ -41,7 +41,7 @@ void read_as_pins(std::string_view text) {
 }
 
 void read_as_landmarks(std::string_view text) {
-  for (const LandmarkPair& pair : parse_landmarks(text, "fuzzed", numbers(), numbers())) {
+  for (const LandmarkPair& pair : LandmarkFile(text, "fuzzed").pairs(numbers(), numbers())) {
     expect(is_vertex(pair.from) && is_vertex(pair.to), "landmarks are vertices");
   }
 }

@@ -59,13 +59,10 @@ void tell_hemispheres(const MatchArguments& arguments, const MappedMesh& first,
                             ", and --mirror matches the mirror image of A: leave it out");
 }
 
-/// The landmarks' file names vertices by their numbers in the meshes' files.
-void read_landmarks_of(MatchArguments& arguments, const MappedMesh& first,
-                       const MappedMesh& second) {
-  arguments.options.search = arguments.landmarks.empty() && arguments.features.empty();
-  if (arguments.landmarks.empty()) return;
-  arguments.options.landmarks =
-      read_landmarks(arguments.landmarks, FileNumbers(first.file()), FileNumbers(second.file()));
+/// Before the meshes, as these may take minutes to map.
+std::optional<LandmarkFile> landmark_file(const MatchArguments& arguments) {
+  if (arguments.landmarks.empty()) return std::nullopt;
+  return LandmarkFile(arguments.landmarks);
 }
 
 void read_features_of(MatchArguments& arguments, const MappedMesh& first,
@@ -113,13 +110,17 @@ std::optional<CarriedFidelity> fidelity(const MatchArguments& arguments, const M
 int run_match(MatchArguments& arguments) {
   require_sensible(arguments);
   Session session(arguments);
+  const std::optional<LandmarkFile> landmarks = landmark_file(arguments);
   MappedMesh first =
       read_side("A", arguments.first, arguments.first_sphere, arguments.repair, session);
   const MappedMesh second =
       read_side("B", arguments.second, arguments.second_sphere, arguments.repair, session);
   tell_hemispheres(arguments, first, second, session);
   if (arguments.mirror) first = mirror_image(first, session.threads());
-  read_landmarks_of(arguments, first, second);
+  arguments.options.search = !landmarks && arguments.features.empty();
+  if (landmarks)
+    arguments.options.landmarks =
+        landmarks->pairs(FileNumbers(first.file()), FileNumbers(second.file()));
   read_features_of(arguments, first, second);
   tell_absent_values(arguments, second, session);
   const Match found = match(arguments, first, second, session);

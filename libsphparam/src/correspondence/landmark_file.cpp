@@ -1,5 +1,6 @@
 #include "sphparam/correspondence/landmark_file.h"
 
+#include <stdexcept>
 #include <unordered_map>
 
 #include "io/files/file_bytes.h"
@@ -14,16 +15,15 @@ class Side {
   Side(std::string which, const FileNumbers& numbers)
       : which_(std::move(which)), numbers_(numbers) {}
 
-  Vertex next(TextScanner& scanner) {
-    const long number = scanner.integer();
+  /// Throws: std::invalid_argument that says why it is none.
+  Vertex vertex(long number, long line) {
     const Vertex vertex = numbers_.vertex(number);
-    if (vertex < 0) scanner.fail(which_ + " mesh: " + numbers_.absence(number));
-    const auto [earlier, is_new] = lines_.emplace(vertex, scanner.line_number());
-    if (!is_new) {
-      scanner.fail("vertex " + std::to_string(number) + " of the " + which_ +
-                   " mesh is in two pairs, first in line " + std::to_string(earlier->second));
-    }
-    return vertex;
+    if (vertex < 0) throw std::invalid_argument(which_ + " mesh: " + numbers_.absence(number));
+    const auto [earlier, is_new] = lines_.emplace(vertex, line);
+    if (is_new) return vertex;
+    throw std::invalid_argument("vertex " + std::to_string(number) + " of the " + which_ +
+                                " mesh is in two pairs, first in line " +
+                                std::to_string(earlier->second));
   }
 
  private:
@@ -34,33 +34,46 @@ class Side {
 
 }  // namespace
 
-std::vector<LandmarkPair> parse_landmarks(std::string_view text, const std::string& name,
-                                          const FileNumbers& from, const FileNumbers& to) {
+LandmarkFile::LandmarkFile(const std::string& path) {
+  const FileBytes bytes(path, ReadOptions{}.max_file_bytes);
+  parse(bytes.view(), bytes.name());
+}
+
+LandmarkFile::LandmarkFile(std::string_view text, const std::string& name) { parse(text, name); }
+
+void LandmarkFile::parse(std::string_view text, const std::string& name) {
+  name_ = name;
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
   const ReadOptions limits;
   TextScanner scanner(text, name, limits);
   scanner.require_text();
-  Side first("first", from), second("second", to);
-  std::vector<LandmarkPair> pairs;
   while (scanner.next_filled_line()) {
-    const Vertex a = first.next(scanner), b = second.next(scanner);
+    const long first = scanner.integer(), second = scanner.integer();
     if (!scanner.at_line_end())
       scanner.fail("expected a vertex of the first mesh and one of the second, then nothing");
-    pairs.push_back({a, b});
+    lines_.push_back({first, second, scanner.line_number()});
   }
-  if (pairs.empty()) {
+  if (lines_.empty()) {
     throw ReadError(name,
                     "there is no pair in it: a line is a vertex of the first mesh and one of the "
                     "second");
   }
-  return pairs;
 }
 
-std::vector<LandmarkPair> read_landmarks(const std::string& path, const FileNumbers& from,
-                                         const FileNumbers& to) {
-  const FileBytes bytes(path, ReadOptions{}.max_file_bytes);
-  return parse_landmarks(bytes.view(), bytes.name(), from, to);
+std::vector<LandmarkPair> LandmarkFile::pairs(const FileNumbers& from,
+                                              const FileNumbers& to) const {
+  Side first("first", from), second("second", to);
+  std::vector<LandmarkPair> pairs;
+  for (const Line& line : lines_) {
+    try {
+      pairs.push_back(
+          {first.vertex(line.first, line.number), second.vertex(line.second, line.number)});
+    } catch (const std::invalid_argument& error) {
+      throw ReadError::at_line(name_, line.number, error.what());
+    }
+  }
+  return pairs;
 }
 
 }  // namespace sphparam

@@ -11,14 +11,25 @@ namespace sphparam {
 
 /// Landmarks of `match --landmarks FILE`, a pair a line: the vertex of the first mesh and that of
 /// the second, by their numbers in the meshes' files. `#` starts a comment; empty lines are
-/// skipped.
-///
-/// Ensures: vertices of the meshes, none twice on either side.
-/// Throws: ReadError with the line; also for a vertex that a mesh has not.
-std::vector<LandmarkPair> read_landmarks(const std::string& path, const FileNumbers& from,
-                                         const FileNumbers& to);
-/// The same from text in memory; `name` is for messages.
-std::vector<LandmarkPair> parse_landmarks(std::string_view text, const std::string& name,
-                                          const FileNumbers& from, const FileNumbers& to);
+/// skipped. The file can be read before the meshes, which may take minutes to map.
+class LandmarkFile {
+ public:
+  /// Throws: ReadError with the line, also where there is no pair.
+  explicit LandmarkFile(const std::string& path);
+  /// The same from text in memory; `name` is for messages.
+  LandmarkFile(std::string_view text, const std::string& name);
+
+  /// Ensures: vertices of the meshes, none twice on either side. Throws: ReadError with the line.
+  std::vector<LandmarkPair> pairs(const FileNumbers& from, const FileNumbers& to) const;
+
+ private:
+  struct Line {
+    long first, second, number;
+  };
+  void parse(std::string_view text, const std::string& name);
+
+  std::string name_;
+  std::vector<Line> lines_;
+};
 
 }  // namespace sphparam
