@@ -130,6 +130,30 @@ TEST_CASE("spherical_harmonics: least squares find what is a harmonic at the ver
   CHECK(projected.rms.maxCoeff() > 1e-6);  // a piecewise linear function is no harmonic
 }
 
+TEST_CASE("spherical_harmonics: an integral has the same coefficients whatever the degree") {
+  const TriangleMesh sphere = icosphere(3);
+  const Topology topology(sphere);
+  const SphereMap map = uneven(sphere);
+  Functions values(sphere.vertex_count(), 2);
+  for (Eigen::Index v = 0; v < values.rows(); ++v) {
+    const Vector3 x = map.points.row(v).transpose();  // 17 long and 5 wide, and a constant
+    values.row(v) << 1 / Vector3(x.x() / 17, x.y() / 5, x.z() / 5).norm(), 3;
+  }
+  const HarmonicFit fine =
+      fit_harmonics(topology, map, values, {.degree = 60, .least_squares = false});
+  const double size = fine.coefficients.bottomRows(fine.coefficients.rows() - 1).norm();
+  for (const int degree : {0, 2, 9}) {
+    const HarmonicFit fit =
+        fit_harmonics(topology, map, values, {.degree = degree, .least_squares = false});
+    INFO(degree << ": " << fit.quadrature_degree);
+    CHECK((fit.coefficients - fine.coefficients.topRows(fit.coefficients.rows())).norm() <
+          3 * settled_quadrature * size);
+    CHECK(fit.quadrature_degree > 50);
+    CHECK(fit.quadrature_change.value() <= settled_quadrature);
+  }
+  CHECK(fit_harmonics(topology, map, values, {.degree = 2}).quadrature_degree == 0);
+}
+
 TEST_CASE("spherical_harmonics: an ellipsoid has its semi-axes and nothing else") {
   const TriangleMesh sphere = icosphere(4);
   Eigen::Matrix3d stretch = Eigen::Vector3d(3, 2, 0.5).asDiagonal();

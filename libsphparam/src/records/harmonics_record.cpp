@@ -70,10 +70,24 @@ Json alignment_json(const HarmonicExpansion& expansion) {
   return json;
 }
 
+Json quadrature_json(const HarmonicFit& fit) {
+  Json json = {{"rows", fit.quadrature_degree + 1}, {"columns", 2 * fit.quadrature_degree + 2}};
+  if (fit.quadrature_change) json["change"] = *fit.quadrature_change;
+  return json;
+}
+
 Json column(const Functions& values, Eigen::Index k) {
   Json result = Json::array();
   for (Eigen::Index i = 0; i < values.rows(); ++i) result.push_back(values(i, k));
   return result;
+}
+
+std::string quadrature_line(const HarmonicFit& fit) {
+  const std::string line = "integral by " + std::to_string(fit.quadrature_degree + 1) + " × " +
+                           std::to_string(2 * fit.quadrature_degree + 2) + " nodes";
+  if (!fit.quadrature_change) return line;
+  return line + "; the last doubling changed the coefficients by " +
+         percent(*fit.quadrature_change) + " of what the functions vary";
 }
 
 }  // namespace
@@ -102,6 +116,7 @@ std::string to_json(const HarmonicExpansion& expansion, const std::string& mesh,
                {"position_rms_relative", expansion.position_rms() / expansion.diagonal},
                {"position_rms_unweighted", expansion.plain_position_rms()},
                {"rms", rms_meaning}};
+  if (!expansion.least_squares) json["quadrature"] = quadrature_json(expansion.fit);
   if (expansion.degree() >= 1) {
     json["first_order_ellipsoid"] =
         vector_json(first_order_ellipsoid(expansion.fit.coefficients.leftCols(3)));
@@ -161,6 +176,7 @@ std::string residual_line(const HarmonicExpansion& expansion) {
 
 std::vector<std::string> further_lines(const HarmonicExpansion& expansion) {
   std::vector<std::string> lines;
+  if (!expansion.least_squares) lines.push_back(quadrature_line(expansion.fit));
   if (expansion.degree() >= 1) {
     const Vector3 axes = first_order_ellipsoid(expansion.fit.coefficients.leftCols(3));
     lines.push_back("first-order ellipsoid: semi-axes " + short_number(axes[0], 6) + ", " +

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <vector>
 
@@ -12,7 +14,8 @@
 // sphere; then, with W the vertices' shares of the sphere, conjugate gradients on
 //   YᵀWY c = YᵀW f
 // from there: YᵀWY is near the identity where triangles are small against a wave, and neither it
-// nor Y is ever made.
+// nor Y is ever made. Where the integral is what is wanted, the nodes are as many as the triangles
+// ask for, whatever the degree: few nodes take what changes between them for a long wave.
 
 namespace sphparam {
 namespace {
@@ -31,6 +34,54 @@ Functions look_up(const Topology& topology, const SphereMap& map, const Function
     }
   }
   return result;
+}
+
+struct Integral {
+  Functions coefficients;
+  VectorX spread;  // of each function: √∫(f − mean)²
+};
+
+/// By the nodes of a grid of at least the degree wanted.
+Integral integrate(const Topology& topology, const SphereMap& map, const Functions& values,
+                   int grid_degree, const HarmonicFitOptions& options) {
+  report(options.progress, "quadrature", 0);
+  const QuadratureGrid grid = quadrature_grid(grid_degree);
+  const Functions f = look_up(topology, map, values, grid.directions, options.threads);
+  const auto mean = (grid.weights.transpose() * f / (4 * std::numbers::pi)).eval();
+  return {analyse(options.degree, grid.directions, grid.weights, f, options.threads),
+          (grid.weights.transpose() * (f.rowwise() - mean).cwiseAbs2()).cwiseSqrt().transpose()};
+}
+
+/// Of the function whose coefficients differ most, but for those that are constant.
+double largest_change(const Integral& before, const Integral& now) {
+  constexpr double rounding = 1e-12;
+  double largest = 0;
+  for (Eigen::Index k = 0; k < now.spread.size(); ++k) {
+    const double change = (now.coefficients.col(k) - before.coefficients.col(k)).norm();
+    if (change <= rounding * now.coefficients.col(k).norm()) continue;
+    largest = std::max(largest, change / now.spread[k]);
+  }
+  return largest;
+}
+
+/// About as many nodes as triangles, then twice as many rows and columns until that changes
+/// nothing that counts.
+void integrate_until_settled(const Topology& topology, const SphereMap& map,
+                             const Functions& values, const HarmonicFitOptions& options,
+                             HarmonicFit& fit) {
+  const double of_mesh = std::ceil(std::sqrt(0.5 * topology.face_count()));
+  int degree =
+      std::max(options.degree, static_cast<int>(std::min(of_mesh, 0.5 * greatest_harmonic_degree)));
+  Integral found = integrate(topology, map, values, degree, options);
+  while (degree < greatest_harmonic_degree) {
+    degree = std::min(std::max(2 * degree, 1), greatest_harmonic_degree);
+    Integral finer = integrate(topology, map, values, degree, options);
+    fit.quadrature_change = largest_change(found, finer);
+    found = std::move(finer);
+    if (*fit.quadrature_change <= settled_quadrature) break;
+  }
+  fit.quadrature_degree = degree;
+  fit.coefficients = std::move(found.coefficients);
 }
 
 /// Conjugate gradients on YᵀWY c = YᵀW f, all functions side by side, each with its own steps.
@@ -88,15 +139,13 @@ HarmonicFit fit_harmonics(const Topology& topology, const SphereMap& map, const 
   if (values.rows() != topology.vertex_count() || map.points.rows() != topology.vertex_count()) {
     throw std::invalid_argument("spherical harmonics: not one value and one ray a vertex");
   }
-  report(options.progress, "quadrature", 0);
-  const QuadratureGrid grid = quadrature_grid(options.degree);
   HarmonicFit fit;
-  fit.coefficients =
-      analyse(options.degree, grid.directions, grid.weights,
-              look_up(topology, map, values, grid.directions, options.threads), options.threads);
   const VectorX shares = vertex_solid_angles(topology, map);
   if (options.least_squares) {
+    fit.coefficients = integrate(topology, map, values, options.degree, options).coefficients;
     fit.iterations = NormalEquations(map.points, shares, options).solve(values, fit.coefficients);
+  } else {
+    integrate_until_settled(topology, map, values, options, fit);
   }
   const Functions left = values - synthesise(fit.coefficients, map.points, options.threads);
   fit.rms = ((shares.asDiagonal() * left.cwiseAbs2()).colwise().sum() / shares.sum()).cwiseSqrt();

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "sphparam/mesh/topology.h"
 #include "sphparam/progress.h"
 #include "sphparam/sphere/sphere_map.h"
@@ -46,7 +48,7 @@ QuadratureGrid quadrature_grid(int degree);
 struct HarmonicFitOptions {
   int degree = 20;
   /// Least squares at the vertices, weighted by their share of the sphere; else by quadrature: the
-  /// projection of the piecewise linear function on the geodesic map.
+  /// projection of the piecewise linear function on the geodesic map, whatever the degree wanted.
   bool least_squares = true;
   int most_iterations = 100;  // ≥ 0: of conjugate gradients
   double tolerance = 1e-12;   // 0 to 1: of their residual, relative to the right-hand side's
@@ -58,7 +60,17 @@ struct HarmonicFit {
   Functions coefficients;  // (L + 1)²×k
   VectorX rms;  // k: of what is left at the vertices, weighted by their share of the sphere
   int iterations = 0;
+
+  // Of quadrature, not of least squares: the degree of the grid of its nodes, and by how much the
+  // coefficients changed when it was doubled last, of √∫(f − mean)² (the function where it is
+  // most; nothing where the degree wanted is the greatest there is).
+  int quadrature_degree = 0;
+  std::optional<double> quadrature_change = {};
 };
+
+/// Nodes are doubled until the coefficients change by no more than this, or the grid's degree is
+/// greatest_harmonic_degree.
+constexpr double settled_quadrature = 1e-4;
 
 /// Expands k functions of a mesh's vertices, #V×k, in spherical harmonics on its map.
 ///
@@ -68,8 +80,10 @@ struct HarmonicFit {
 /// where the vertices determine them; same bits for any number of threads. Requires: a map that
 /// `certify` calls bijective, unit rays. Throws: std::invalid_argument for wrong sizes or options;
 /// Cancelled. Cost: two transforms of #V points an iteration, few where triangles are small against
-/// a wave. Source: least squares: Brechbühler, Gerig and Kübler (1995), Section 4; conjugate
-/// gradients on the normal equations, and their start: our own.
+/// a wave; quadrature: a transform and a location of #F nodes, one of four times as many, and so on
+/// until they agree (`settled_quadrature`), 2 million nodes at most. Source: least squares:
+/// Brechbühler, Gerig and Kübler (1995), Section 4; conjugate gradients on the normal equations,
+/// and their start: our own.
 HarmonicFit fit_harmonics(const Topology& topology, const SphereMap& map, const Functions& values,
                           const HarmonicFitOptions& options = {});
 
