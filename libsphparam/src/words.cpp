@@ -79,9 +79,11 @@ std::string radial_line(const RadialRecord& radial) {
     return "planetocentric: the surface is star-shaped about " + centre;
   }
   constexpr double degrees = 180 / std::numbers::pi;
-  const std::string folds = "not star-shaped about " + centre + ": " +
-                            counted(radial.folds, "triangle folds", "triangles fold") + ", " +
-                            percent(radial.folded_area) + " of the area";
+  const std::string folds =
+      radial.folds == 0 ? "star-shaped about " + centre + ", but what closes its holes folds"
+                        : "not star-shaped about " + centre + ": " +
+                              counted(radial.folds, "triangle folds", "triangles fold") + ", " +
+                              percent(radial.folded_area) + " of the area";
   if (radial.moved == 0) return folds;
   const std::string most = ", by " + short_number(radial.largest_movement * degrees) + "° at most";
   if (radial.moved == 1) return folds + "; all vertices moved" + most + ": none is planetocentric";

@@ -87,6 +87,26 @@ TEST_CASE("radial: what folds is untangled there, told with its shares, all else
   CHECK(result.radial->largest_movement < 0.3);
 }
 
+TEST_CASE("radial: fillers that fold give way, the surface stays") {
+  // The faces about a vertex close a hole; the vertex lies where they fold.
+  TriangleMesh mesh = bumpy(4);
+  const Vertex v = push_beyond_neighbour(mesh);
+  FillerMarks fillers(static_cast<size_t>(mesh.face_count()), 0);
+  for (Face f = 0; f < mesh.face_count(); ++f)
+    fillers[static_cast<size_t>(f)] = (mesh.triangles.row(f).array() == v).any();
+  const SphereMap directions = radial_directions(mesh);
+  REQUIRE(certify(Topology(mesh), directions).fold_count() > 0);
+  const Parameterization result =
+      parameterize(mesh, {.method = Method::Radial, .fillers = fillers, .filler_share = 0.1});
+  CHECK(result.certificate.bijective());
+  CHECK(result.radial->folds == 0);
+  CHECK(result.radial->folded_area == 0);
+  CHECK(result.radial->moved == 0);
+  CHECK(result.radial->largest_movement == 0);
+  for (Vertex w = 0; w < mesh.vertex_count(); ++w)
+    CHECK((result.map.point(w) == directions.point(w)) == (w != v));
+}
+
 TEST_CASE("radial: a body that hangs over everywhere is mapped anew, turned to its directions") {
   const TriangleMesh mesh = random_sphere_mesh(400, 3);
   const Parameterization result = parameterize(mesh, {.method = Method::Radial});

@@ -9,7 +9,10 @@ namespace sphparam {
 /// centre.
 void map_radially(MapInProgress& work);
 
-/// Notes how far the map has gone from these directions. Requires: `map_radially`.
+/// Notes how far the map has the surface from these directions. Requires: `map_radially`.
 void note_movement(MapInProgress& work);
+
+/// Those that others than fillers have.
+std::vector<Vertex> surface_vertices(const MapInProgress& work);
 
 }  // namespace sphparam

@@ -7,7 +7,9 @@
 #include "embedding/constructions/untangle.h"
 #include "pipeline/alignment.h"
 #include "pipeline/balanced_embedding.h"
+#include "pipeline/radial_map.h"
 #include "sphparam/errors.h"
+#include "sphparam/sphere/certificate.h"
 
 // The rungs, from the one that keeps most of the map to the one that always has room: untangling
 // where folds are few, the progressive embedding, the one-vertex lift, the grid lift.
@@ -18,6 +20,11 @@ namespace {
 constexpr double most_folds = 0.02;        // of the faces: beyond it nothing is local any more
 constexpr double most_radial_folds = 0.2;  // where what lies right is worth more work
 
+/// Of a radial map, which has the surface where it should be.
+bool only_fillers_fold(const MapInProgress& work) {
+  return work.result.radial && work.result.radial->folds == 0;
+}
+
 void untangle_folds(MapInProgress& work) {
   if (work.result.map.points.rows() == 0) return;  // the method made no map
   const double most = work.options.method == Method::Radial ? most_radial_folds : most_folds;
@@ -27,6 +34,15 @@ void untangle_folds(MapInProgress& work) {
                              .threads = work.options.threads,
                              .progress = work.options.progress};
   if (work.result.poles) untangling.pinned = {work.result.poles->north, work.result.poles->south};
+  if (only_fillers_fold(work)) {  // which give way, where there is room among what is theirs
+    UntangleOptions of_fillers = untangling;
+    of_fillers.pinned = surface_vertices(work);
+    SphereMap map = untangle(work.topology, work.source(), work.result.map, of_fillers).map;
+    if (certify(work.topology, map, work.options.threads).bijective()) {
+      work.record("untangling", map);
+      return work.accept("untangling", std::move(map));
+    }
+  }
   SphereMap map = untangle(work.topology, work.source(), work.result.map, untangling).map;
   work.record("untangling", map);
   work.accept("untangling", std::move(map));
