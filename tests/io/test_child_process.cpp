@@ -1,3 +1,4 @@
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
@@ -12,6 +13,18 @@ TEST_CASE("child process: what it makes comes back, also much of it") {
   CHECK(result_of_child([] { return std::string("made"); }) == "made");
   CHECK(result_of_child([] { return std::string(); }).empty());
   CHECK(result_of_child([] { return std::string(5'000'000, 'x'); }) == std::string(5'000'000, 'x'));
+}
+
+TEST_CASE("child process: no program that is started meanwhile has its pipe") {
+  const auto descriptors_of_programs = [] {
+    std::string found;
+    for (int number = 0; number < 256; ++number) {
+      const int flags = ::fcntl(number, F_GETFD);
+      if (flags >= 0 && !(flags & FD_CLOEXEC)) found += std::to_string(number) + " ";
+    }
+    return found;
+  };
+  CHECK(result_of_child(descriptors_of_programs) == descriptors_of_programs());
 }
 
 TEST_CASE("child process: one that takes more time or memory than it may is an error") {

@@ -1,5 +1,6 @@
 #include "io/files/child_process.h"
 
+#include <fcntl.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -105,7 +106,9 @@ int status_of(pid_t child) {
 
 std::string result_of_child(const std::function<std::string()>& work, const ChildLimits& limits) {
   int ends[2];
-  if (::pipe(ends) != 0) throw_error("pipe");
+  // No program that another thread starts meanwhile holds them open: the reading ends with the
+  // child.
+  if (::pipe2(ends, O_CLOEXEC) != 0) throw_error("pipe2");
   const pid_t parent = ::getpid(), child = ::fork();
   if (child < 0) {
     ::close(ends[0]);
