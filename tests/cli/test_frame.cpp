@@ -166,8 +166,8 @@ TEST_CASE("map: --meridian gives a vertex theta 0, with and without poles") {
 
 TEST_CASE("map: pins are exactly at their points") {
   const Folder folder;
-  write_bytes(folder / "pins.txt",
-              "# vertex theta phi\n5 0.5 1.0\n\n40 2 2 # the other\n100 4 0.7\n");
+  write_bytes(folder / "pins.txt",  // with the byte order mark of Windows' editors
+              "\xEF\xBB\xBF# vertex theta phi\n5 0.5 1.0\n\n40 2 2 # the other\n100 4 0.7\n");
   const Json report = report_of(folder, {"--pin", folder / "pins.txt"});
   REQUIRE(report["pins"].size() == 3);
   for (const Json& pin : report["pins"]) CHECK(pin["residual"] == 0);

@@ -19,6 +19,17 @@ TEST_CASE("template_landmarks: a vertex a line, by its number in the file, and a
   CHECK(found[1].vertex == 7);
 }
 
+TEST_CASE("template_landmarks: a byte order mark before the first number is no part of it") {
+  MeshFile file;
+  file.mesh = icosphere(1);
+  const auto found = parse_template_landmarks(
+      "\xEF\xBB\xBF"
+      "3 nose\n",
+      "x", FileNumbers(file));
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].vertex == 3);
+}
+
 TEST_CASE("template_landmarks: what is none is refused with its line") {
   MeshFile file;
   file.mesh = icosphere(1);

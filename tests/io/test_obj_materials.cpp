@@ -74,6 +74,15 @@ TEST_CASE("obj_materials: base colours are those of the library") {
             "not carried: tints of textures (Kd beside map_Kd) of 1 of 2 materials"});
 }
 
+TEST_CASE("obj_materials: a byte order mark before the first line is no part of it") {
+  const ObjFolder folder;
+  const MeshFile file = folder.read_with("mtllib a.mtl",
+                                         "\xef\xbb\xbf"
+                                         "newmtl wood\nKd 0.25 0.5 1\nnewmtl red\nKd 1 0.25 0\n");
+  REQUIRE(file.base_colours.size() == 2);
+  CHECK(file.base_colours[1].factor == std::array<double, 4>{0.25, 0.5, 1, 1});
+}
+
 TEST_CASE("obj_materials: what else they say is told once") {
   const ObjFolder folder;
   const MeshFile file = folder.read_with(

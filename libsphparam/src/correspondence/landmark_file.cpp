@@ -43,8 +43,6 @@ LandmarkFile::LandmarkFile(std::string_view text, const std::string& name) { par
 
 void LandmarkFile::parse(std::string_view text, const std::string& name) {
   name_ = name;
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
   const ReadOptions limits;
   TextScanner scanner(text, name, limits);
   scanner.require_text();

@@ -6,6 +6,7 @@
 
 #include "io/files/file_bytes.h"
 #include "io/files/gzip.h"
+#include "io/files/text_scanner.h"
 #include "io/formats/mesh_formats.h"
 #include "io/shell_word.h"
 #include "number_text.h"
@@ -108,8 +109,7 @@ const MeshFormat& format_of(std::string_view bytes, const std::string& name) {
 MeshFile read_unpacked(std::string_view bytes, const std::string& name,
                        const std::optional<std::filesystem::path>& folder,
                        const ReadOptions& options) {
-  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-  if (bytes.starts_with(byte_order_mark)) bytes.remove_prefix(byte_order_mark.size());
+  bytes = without_byte_order_mark(bytes);  // which no format knows its files by
   if (bytes.empty()) throw ReadError(name, "the file is empty");
   return format_of(bytes, name).read({bytes, name, folder}, options);
 }

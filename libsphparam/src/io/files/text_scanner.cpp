@@ -10,7 +10,7 @@ TextScanner::TextScanner(std::string_view text, std::string file, const ReadOpti
                          long first_line)
     : file_(std::move(file)),
       options_(options),
-      text_(text),
+      text_(without_byte_order_mark(text)),
       first_number_(first_line),
       line_number_(first_line),
       next_number_(first_line) {

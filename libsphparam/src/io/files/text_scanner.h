@@ -11,8 +11,14 @@
 
 namespace sphparam {
 
-/// Reads numbers and words of a text file, line after line. Lines end in LF, CRLF or CR; `#` starts
-/// a comment that runs to the end of its line.
+/// Text in UTF-8 without the mark that editors and spreadsheets of Windows put before it.
+inline std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view mark = "\xef\xbb\xbf";
+  return text.starts_with(mark) ? text.substr(mark.size()) : text;
+}
+
+/// Reads numbers and words of a text file, line after line, without a byte order mark. Lines end in
+/// LF, CRLF or CR; `#` starts a comment that runs to the end of its line.
 ///
 /// Every failure is a ReadError with the line it happened on.
 class TextScanner {
