@@ -82,6 +82,24 @@ TEST_CASE("verify_map: no finite radius is too large or too small, one in the fi
   }
 }
 
+TEST_CASE("verify_map: rays of any length are certified either way round, and told as they were") {
+  TriangleMesh mesh = icosphere(2);
+  const TriangleMesh outside = mesh;
+  SphereMap map{mesh.positions * -1e100};
+  const Certificate certificate = certify_either_way(mesh, map);
+  CHECK(certificate.bijective());
+  CHECK(certificate.reversed);
+  CHECK(certificate.max_length_error == Approx(1e100));
+  CHECK(mesh.triangles.col(1) == outside.triangles.col(2));
+  CHECK(map.points.cwiseAbs().maxCoeff() <= 0x1p64);
+  TriangleMesh open = outside;
+  open.triangles.conservativeResize(open.face_count() - 1, 3);
+  CHECK_THROWS_AS(certify_either_way(open, map), MeshError);
+  TriangleMesh nothing;
+  SphereMap none;
+  CHECK_FALSE(certify_either_way(nothing, none).bijective());
+}
+
 TEST_CASE("verify_map: theta and phi beside the rays are held against them") {
   const Folder folder;
   const SphereMap map{icosphere(2).positions};

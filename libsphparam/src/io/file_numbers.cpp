@@ -62,7 +62,6 @@ FileNumbers::FileNumbers(const MeshFile& file)
       numbers_(ids_in(file.find_vertex_property("source_vertex"))),
       face_numbers_(ids_in(file.find_face_property("source_face"))) {
   if (numbers_.empty()) return;
-  if (numbers_.empty()) return;
   by_number_.reserve(numbers_.size());
   for (Vertex v = 0; v < vertices_; ++v) {
     by_number_.emplace_back(numbers_[static_cast<size_t>(v)], v);

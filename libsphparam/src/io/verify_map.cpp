@@ -34,8 +34,6 @@ constexpr double roundness = 1e-3;
 /// Radians: theta and phi of six printed digits, or in float32, are nearer to the rays.
 constexpr double angle_tolerance = 1e-5;
 
-constexpr double largest_ray = 0x1p64;  // that signs are exact for
-
 /// A map as a file has it, and what the file says of it besides.
 struct Claim {
   VerifiedMap map;
@@ -154,15 +152,6 @@ Claim claim_of(MeshSource shape, const MeshSource& sphere) {
   return whole;
 }
 
-/// Rays too long for exact signs, divided by a power of two each: they stay the same rays.
-void shorten(Points& rays) {
-  for (Eigen::Index v = 0; v < rays.rows(); ++v) {
-    const double largest = rays.row(v).cwiseAbs().maxCoeff();
-    if (rays.row(v).allFinite() && largest > largest_ray)
-      rays.row(v) *= std::ldexp(1.0, -std::ilogb(largest));
-  }
-}
-
 /// Theta and phi are held against unit rays.
 AngleClaims judge_angles(const SphereMap& angles, const SphereMap& unit) {
   AngleClaims found;
@@ -181,20 +170,24 @@ std::string words_of(const AngleClaims& angles) {
          " of sx sy sz, by up to " + short_number(angles.farthest) + " radians";
 }
 
-/// Turns the faces over where all of them are negative.
-void certify_either_way(VerifiedMap& claim, int threads) {
-  claim.certificate = certify(Topology(claim.mesh), claim.map, threads);
-  if (!claim.certificate.reversed) return;
-  claim.mesh.triangles.col(1).swap(claim.mesh.triangles.col(2));
-  claim.certificate = certify(Topology(claim.mesh), claim.map, threads);
-  claim.certificate.reversed = true;
-}
-
 }  // namespace
 
 bool VerifiedMap::is_round() const { return length_deviation <= roundness; }
 
 bool VerifiedMap::holds() const { return certificate.bijective() && !(angles && angles->off > 0); }
+
+Certificate certify_either_way(TriangleMesh& mesh, SphereMap& map, int threads) {
+  const double greatest = map.points.rows() > 0 ? measure_radius(map.points).greatest : 0;
+  shorten(map.points);
+  Certificate certificate = certify(Topology(mesh), map, threads);
+  if (certificate.reversed) {
+    mesh.triangles.col(1).swap(mesh.triangles.col(2));
+    certificate = certify(Topology(mesh), map, threads);
+    certificate.reversed = true;
+  }
+  if (greatest > largest_ray) certificate.max_length_error = greatest - 1;  // as they were
+  return certificate;
+}
 
 VerifiedMap verify_map(const std::string& path, const VerifyOptions& options) {
   MeshSource source = read_claimed(path, options.read);
@@ -206,10 +199,7 @@ VerifiedMap verify_map(const std::string& path, const VerifyOptions& options) {
   const Radius radius = measure_radius(verified.map.points);
   verified.mean_length = radius.mean;
   verified.length_deviation = radius.deviation;
-  shorten(verified.map.points);
-  certify_either_way(verified, options.threads);
-  if (radius.greatest > largest_ray)
-    verified.certificate.max_length_error = radius.greatest - 1;  // as they were
+  verified.certificate = certify_either_way(verified.mesh, verified.map, options.threads);
   if (!claim.verdict.empty() && claim.verdict != verdict(verified.certificate))
     verified.warnings.push_back("the header says: " + claim.verdict + "; it is " +
                                 verdict(verified.certificate));

@@ -25,4 +25,15 @@ inline Radius measure_radius(const Points& rays) {
           (lengths.array() / mean - 1).abs().maxCoeff()};
 }
 
+constexpr double largest_ray = 0x1p64;  // that signs are exact for
+
+/// Longer rays, divided by a power of two each: they stay the same rays.
+inline void shorten(Points& rays) {
+  for (Eigen::Index v = 0; v < rays.rows(); ++v) {
+    const double largest = rays.row(v).cwiseAbs().maxCoeff();
+    if (rays.row(v).allFinite() && largest > largest_ray)
+      rays.row(v) *= std::ldexp(1.0, -std::ilogb(largest));
+  }
+}
+
 }  // namespace sphparam

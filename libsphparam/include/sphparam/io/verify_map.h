@@ -63,6 +63,11 @@ struct VerifyOptions {
   int threads = 0;  // 0: all cores
 };
 
+/// Of rays of any length or, where every face is negative, of their mirror image, and `reversed`
+/// then: the faces of `mesh` are turned over. Rays longer than 2⁶⁴ are shortened in `map`.
+/// Requires: a ray a vertex. Throws: MeshError for what is no closed manifold.
+Certificate certify_either_way(TriangleMesh& mesh, SphereMap& map, int threads = 0);
+
 /// Proves a written map again, ours or anybody's: the rays are found in the file, and certified as
 /// they are. A map that is not one-to-one is a value, see `certificate`.
 /// Throws: ReadError, also where the two files are not one connectivity, the same vertices in every
