@@ -36,6 +36,8 @@ def make_stl():
     ok("ascii_two_solids", changed(t, facet([P4[v] for v in F4[1]]), "endsolid\nsolid b\n" +
                                    facet([P4[v] for v in F4[1]])))
     ok("ascii_trailing_words", t + "that is all\n")
+    ok("ascii_zeros_behind", t + 100 * "\0")
+    ok("ascii_normals_without_numbers", t.replace("normal 0 0 1", "normal -nan(ind) nan -1.#IND"))
     ok("binary", b)
     ok("binary_that_says_solid", binary_stl(P4, F4, b"solid a"))
     ok("binary_that_says_solid_and_newline", binary_stl(P4, F4, b"solid a\nfacet normal"))
@@ -57,7 +59,8 @@ def make_stl():
         bad("binary_of_%d_bytes" % size, b[:size], "the file is empty" if size == 0 else "")
     for size in (84, 85, 134, len(b) - 1):
         bad("binary_of_%d_bytes" % size, b[:size], "binary STL of 4 triangles has 284 bytes")
-    bad("binary_too_long", b + b"\0", "this file has 285")
+    ok("binary_zero_behind", b + b"\0")
+    bad("binary_triangle_behind", b + b[84:134], "this file has 334")
     for count in (3, 5, 2**31 - 1, 2**32 - 1):
         bad("binary_count_%d" % count, b[:80] + struct.pack("<I", count) + b[84:], "binary STL of %d triangles" % count)
     for name, value in (("nan", float("nan")), ("inf", float("inf"))):

@@ -91,7 +91,7 @@ TEST_CASE("stl_reader: the length decides, not the word solid") {
   const MeshFile file = read(bytes);
   CHECK(file.format == "STL binary");
   CHECK(file.comments == std::vector<std::string>{"solid but binary"});
-  CHECK(contains(complaint(bytes + "x", "a.stl"), "byte 80"));
+  CHECK(contains(complaint(bytes + bytes.substr(84, 50), "a.stl"), "byte 80"));
   CHECK(contains(complaint(bytes.substr(0, bytes.size() - 1), "a.stl"), "byte 80"));
   CHECK(contains(complaint(std::string("solid\0", 6), "a.stl"), "long enough"));
 }
@@ -132,7 +132,7 @@ TEST_CASE("stl_reader: what breaks the rules is refused at its line") {
   };
   refused("facet normal", "face normal", 2, "expected 'facet'");
   refused("normal 0 0 1", "normal 0 0", 2, "end of the line");
-  refused("normal 0 0 1", "normal nan 0 1", 2, "nan");
+  refused("normal 0 0 1", "normal one 0 1", 2, "one");
   refused("outer", "inner", 3, "expected 'outer'");
   refused("vertex ", "vertex 1e999 ", 4, "range");
   refused("vertex ", "vertex 0x1p3 ", 4, "0x1p3");
@@ -160,6 +160,33 @@ TEST_CASE("stl_reader: binary coordinates must be finite, counts within the limi
     fewer.max_vertices = 3;
     CHECK(contains(complaint(good, "a.stl", fewer), "limit of 3"));
   }
+}
+
+TEST_CASE("stl_reader: normals need not be finite, nobody reads them") {
+  const std::string text = ascii_stl(tetrahedron());
+  for (const char* none : {"nan", "-nan(ind)", "-1.#IND", "1.#QNAN0", "inf", "-INF"}) {
+    INFO(none);
+    const std::string word(none);
+    const MeshFile file = read(replaced(text, "normal 0 0 1", "normal " + word + " 0 " + word));
+    CHECK(file.mesh.triangles == read(text).mesh.triangles);
+    CHECK(file.notes.empty());
+  }
+  CHECK(contains(complaint(replaced(text, "vertex ", "vertex nan "), "a.stl"), "nan"));
+}
+
+TEST_CASE("stl_reader: what fills a file up behind its mesh is noted, and the mesh is read") {
+  const std::string text = ascii_stl(tetrahedron()), bytes = binary_stl(tetrahedron());
+  for (const std::string& more :
+       {std::string("x"), std::string(10, '\1'), std::string(1000, '\0')}) {
+    const MeshFile file = read(bytes + more, "a.stl");
+    CHECK(file.mesh.triangles == read(bytes).mesh.triangles);
+    REQUIRE(file.notes.size() == 1);
+    CHECK(contains(file.notes[0], "data after the last triangle ignored: " +
+                                      std::to_string(more.size()) + " byte"));
+  }
+  const MeshFile padded = read(text + std::string(50, '\0'), "a.stl");
+  CHECK(padded.mesh.triangles == read(text).mesh.triangles);
+  CHECK(padded.notes == std::vector<std::string>{"zero bytes after the text ignored"});
 }
 
 TEST_CASE("stl_reader: data after the last solid is noted") {

@@ -128,7 +128,7 @@ class AsciiReader {
 
   void read_facet() {
     expect("normal");
-    for (int axis = 0; axis < 3; ++axis) scanner_.real();
+    for (int axis = 0; axis < 3; ++axis) scanner_.any_real();  // of facets without area NaN
     expect("outer");
     expect("loop");
     for (int corner = 0; corner < 3; ++corner) {
@@ -186,6 +186,9 @@ class BinaryReader {
     const bool used = std::any_of(attribute.values.begin(), attribute.values.end(),
                                   [](double value) { return value != 0; });
     if (used) file.set_face_property(std::move(attribute));
+    if (const std::uint64_t more = bytes_.size() - binary_size(facets); more > 0)
+      file.notes.push_back("data after the last triangle ignored: " + std::to_string(more) +
+                           (more == 1 ? " byte" : " bytes"));
     return file;
   }
 
@@ -194,12 +197,19 @@ class BinaryReader {
     if (bytes_.size() < header_bytes)
       throw ReadError(name_, "is neither ASCII STL ('solid …') nor long enough to be a binary one");
     const std::uint32_t facets = little_endian(bytes_, text_header_bytes, 4);
-    if (bytes_.size() != binary_size(facets))
+    if (bytes_.size() != binary_size(facets) && !is_padded(facets))
       throw ReadError::at_byte(name_, text_header_bytes,
                                "binary STL of " + std::to_string(facets) + " triangles has " +
                                    std::to_string(binary_size(facets)) + " bytes, this file has " +
                                    std::to_string(bytes_.size()));
     return facets;
+  }
+
+  /// What comes after the triangles is no triangles, of which the count would be wrong.
+  bool is_padded(std::uint32_t facets) const {
+    if (facets == 0 || bytes_.size() < binary_size(facets)) return false;
+    const std::string_view more = bytes_.substr(binary_size(facets));
+    return more.size() % facet_bytes != 0 || more.find_first_not_of('\0') == std::string_view::npos;
   }
 
   void add_corner(Welder& welder, std::size_t at) const {
@@ -253,10 +263,14 @@ bool looks_like_stl(std::string_view bytes) {
 
 MeshFile read_stl(std::string_view bytes, const std::string& name, const ReadOptions& options) {
   const bool ascii = looks_like_ascii_stl(bytes) && !looks_like_binary_stl(bytes);
-  // A NUL is in every binary file: its length is what is wrong, not the NUL.
-  if (ascii && bytes.find('\0') == std::string_view::npos)
-    return AsciiReader(bytes, name, options).read();
-  return BinaryReader(bytes, name, options).read();
+  // Some programs fill the last block. A NUL before that is in every binary file: its length is
+  // what is wrong, not the NUL.
+  const std::string_view text = bytes.substr(0, bytes.find_last_not_of('\0') + 1);
+  if (!ascii || text.find('\0') != std::string_view::npos)
+    return BinaryReader(bytes, name, options).read();
+  MeshFile file = AsciiReader(text, name, options).read();
+  if (text.size() < bytes.size()) file.notes.push_back("zero bytes after the text ignored");
+  return file;
 }
 
 }  // namespace sphparam

@@ -22,10 +22,11 @@ bool looks_like_stl(std::string_view bytes);
 ///
 /// Corners of the same coordinates (−0 = +0, never by a tolerance) are one vertex, in the order of
 /// first use. A facet that then names a vertex twice stays, `inspect_mesh` lists it. Facet normals
-/// are not kept: they follow from the corners. Kept: the face property `solid` where an ASCII file
-/// has several, `attribute` (two bytes a facet, often a colour) where a binary file uses them,
-/// names and header as comments. Throws: ReadError with the line, or with the byte. Cost:
-/// O(triangles), expected.
+/// are not kept, nor need they be finite: they follow from the corners. What comes after the last
+/// triangle is noted, but of a binary file refused where it is whole triangles that its count
+/// leaves out. Kept: the face property `solid` where an ASCII file has several, `attribute` (two
+/// bytes a facet, often a colour) where a binary file uses them, names and header as comments.
+/// Throws: ReadError with the line, or with the byte. Cost: O(triangles), expected.
 MeshFile read_stl(std::string_view bytes, const std::string& name, const ReadOptions& options = {});
 
 }  // namespace sphparam
