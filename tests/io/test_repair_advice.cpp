@@ -166,6 +166,31 @@ TEST_CASE("try_repair: pieces that small errors keep apart are welded, and nothi
     CHECK(try_repair(source_of(mesh, "a.ply")).options.weld_share < 0);
 }
 
+TEST_CASE("try_repair: what the rounding of float32 tears is welded, however few its tears are") {
+  const TriangleMesh ball = icosphere(4);
+  for (const double share : {0.005, 0.01, 0.05, 0.1, 0.4}) {
+    INFO(share);
+    const MeshSource torn = source_of(torn_by_rounding(ball, share), "torn.stl");
+    const RepairTrial trial = try_repair(torn);
+    CHECK_THAT(repair_advice(trial, torn.path), StartsWith("  --repair --weld "));
+    CHECK(trial.options.weld_share <= 1e-6);
+    CHECK(trial.options.component == 0);
+    const MeshSource whole = repaired(torn, trial.options);
+    CHECK(whole.file.mesh.vertex_count() == ball.vertex_count());
+    CHECK(whole.added_share == 0);
+    CHECK(weld_line(whole).empty());
+  }
+}
+
+TEST_CASE("repaired: what a weld would have spared is told, and nothing where it spares little") {
+  const MeshSource torn = source_of(torn_by_rounding(icosphere(4), 0.005), "torn.stl");
+  const MeshSource unasked = repaired(torn, {});
+  CHECK(unasked.added_share > 1e-3);
+  CHECK_THAT(weld_line(unasked), StartsWith("--repair --weld 2e-05% puts in and drops 0 %"));
+  CHECK(weld_line(mended(torn, {})) == weld_line(unasked));
+  CHECK(weld_line(repaired(source_of(open_ball(), "a.ply"), {})).empty());
+}
+
 TEST_CASE("refuse: of several components it says what each takes, and of one what it needs") {
   try {
     refuse(source_of(two_balls(), "two.ply"));

@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <limits>
 
 #include "mesh/weld_shares.h"
@@ -37,6 +38,23 @@ TEST_CASE("weld_shares: none where boundaries are the shape's, or nothing has a 
   TriangleMesh absent = shaken_apart(icosphere(1), 1e-5);
   absent.positions(3, 1) = std::numeric_limits<double>::quiet_NaN();
   CHECK(weld_shares(absent).empty());
+}
+
+TEST_CASE(
+    "weld_shares: few vertices torn apart by the rounding of float32 have that of its steps") {
+  for (const double away : {0.0, 100.0}) {
+    TriangleMesh mesh = icosphere(3);
+    mesh.positions.col(0).array() += away;
+    const auto old = mesh.vertex_count();
+    mesh.positions.conservativeResize(old + 1, 3);
+    mesh.positions.row(old) = mesh.position(mesh.triangles(0, 0));
+    mesh.triangles(0, 0) = static_cast<Vertex>(old);
+    double& x = mesh.positions(old, 0);
+    x = std::nextafter(static_cast<float>(x), 1000.F);
+    CHECK(weld_shares(mesh) == Shares{away > 0 ? 2e-5 : 2e-7});
+    x += 0.01;  // a shape
+    CHECK(weld_shares(mesh).empty());
+  }
 }
 
 TEST_CASE("weld_shares: a tenth of short edges, few single vertices and odd faces change nothing") {

@@ -53,35 +53,33 @@ void require_sensible(const RepairCommandArguments& arguments) {
       {{"-o", arguments.output}, {"--loops", arguments.repair.loops}, {"--json", arguments.json}});
 }
 
-MeshSource read_and_mend(const RepairCommandArguments& arguments, const RepairOptions& wanted,
-                         Session& session) {
+MeshSource read_given(const RepairCommandArguments& arguments, const RepairOptions& wanted,
+                      Session& session) {
   ReadOptions options = input_limits();
   options.repeated_corners = true;
   options.non_finite = wanted.non_finite;
-  try {
-    MeshSource source = read_source(arguments.input, options);
-    const bool is_beside = has_data_beside(arguments.output);
-    attach_data_files(source.file, source.path, arguments.data,
-                      is_beside ? MissingValues::Kept : MissingValues::LeftOut, session);
-    return mended(std::move(source), wanted);
-  } catch (const NoSuchComponent& error) {
-    throw UsageMistake(std::string("--component: ") + error.what());
-  }
+  MeshSource source = read_source(arguments.input, options);
+  const bool is_beside = has_data_beside(arguments.output);
+  attach_data_files(source.file, source.path, arguments.data,
+                    is_beside ? MissingValues::Kept : MissingValues::LeftOut, session);
+  return source;
 }
 
-/// What would mend it, beyond what was wanted. Components that are there keep their numbers.
-void tell_what_else(const RepairCommandArguments& arguments, RepairOptions wanted,
-                    const MeshSource& source) {
-  const int component = std::exchange(wanted.component, 0);  // chosen already
-  RepairTrial trial = try_repair_beyond(source, wanted);
-  if (component > 0) trial.options.component = component;
+MeshSource mended_as(const MeshSource& given, const RepairOptions& wanted) try {
+  return mended(given, wanted);
+} catch (const NoSuchComponent& error) {
+  throw UsageMistake(std::string("--component: ") + error.what());
+}
+
+/// What would mend it, beyond what was wanted: what is typed begins with the mesh as it was given,
+/// whose components are those that are numbered, and of which a weld has the edges.
+void tell_what_else(const RepairCommandArguments& arguments, const RepairOptions& wanted,
+                    const MeshSource& given) {
+  const RepairTrial trial = try_repair_beyond(given, wanted);
   const std::string command = "sphparam repair " + shell_file(arguments.input) + " " +
                               options_line(trial.options) + " -o " + shell_file(arguments.output);
   std::optional<PartsTrial> parts;
-  if (trial.parts.refused) {
-    parts = try_parts(source);
-    parts->as_they_are = parts->as_they_are && source.repairs.empty();
-  }
+  if (trial.parts.refused) parts = try_parts(given);
   std::fputs(repair_advice(trial, arguments.input, command, parts).c_str(), stderr);
 }
 
@@ -90,7 +88,8 @@ int run_repair(RepairCommandArguments& arguments) {
   const RepairOptions wanted = all_or_wanted_repairs(arguments.repair);
   Session session(arguments);
   session.console.progress("repair", 0);
-  const MeshSource source = read_and_mend(arguments, wanted, session);
+  const MeshSource given = read_given(arguments, wanted, session);
+  const MeshSource source = mended_as(given, wanted);
   session.hold_signals();
   session.console.clear_progress();
   tell_losses(source, session.console);
@@ -111,7 +110,7 @@ int run_repair(RepairCommandArguments& arguments) {
   const std::string line = display_name(arguments.input) + ": " + outcome_line(source.inspection);
   session.console.say(line + " → " + output_name(arguments.output));
   if (is_mappable(source)) return Ok;
-  if (!arguments.quiet && !source.inspection.is_sphere()) tell_what_else(arguments, wanted, source);
+  if (!arguments.quiet && !source.inspection.is_sphere()) tell_what_else(arguments, wanted, given);
   if (arguments.quiet) print_error(line);
   return MeshUnusable;
 }

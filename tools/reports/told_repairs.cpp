@@ -29,7 +29,8 @@ void tell_repairs(const MeshSource& source, Console& console) {
     console.say("  " + kept);
   if (const std::string whole = kept_whole_line(source); !whole.empty())
     console.say("    " + whole);
-  for (const std::string& line : {added_line(source), shared_places_line(source)})
+  for (const std::string& line :
+       {added_line(source), weld_line(source), shared_places_line(source)})
     if (!line.empty()) console.say("  " + line);
 }
 

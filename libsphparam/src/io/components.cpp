@@ -149,7 +149,7 @@ PartsTrial try_parts(const MeshSource& source) {
       left_out += part.area;
       continue;
     }
-    const RepairTrial of_part = try_repair(alone);
+    const RepairTrial of_part = try_part(alone);
     const bool mends = of_part.can_mend() && of_part.options.component == 0;
     if (!mends) {
       left_out += part.area;

@@ -1,12 +1,16 @@
 // The library's repair names elements of the mesh it was given; people know the numbers of the
 // file, which welding and dropping vertices have changed.
 
+#include "sphparam/io/mesh_refusal.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <new>
+#include <string_view>
 #include <utility>
 
+#include "io/mesh_part.h"
 #include "io/repaired_file.h"
 #include "mesh/defect_places.h"
 #include "mesh/triangle_geometry.h"
@@ -14,7 +18,6 @@
 #include "number_text.h"
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/io/losses.h"
-#include "sphparam/io/mesh_refusal.h"
 #include "sphparam/io/mesh_source.h"
 #include "sphparam/io/repair_advice.h"
 #include "sphparam/io/sphere_file.h"
@@ -146,6 +149,45 @@ double added_share(const RepairedMesh& mended) {
   return added > 0 ? added / area : 0;
 }
 
+/// Of the area, what a repair puts in and what it drops.
+double changed_share(const RepairedMesh& mended) {
+  return added_share(mended) + 1 - mended.parts.area_share;
+}
+
+/// What a weld must spare to be told of where a repair is enough.
+constexpr double least_spared = 1e-3;
+
+/// Whether a mesh in one piece is better welded first.
+bool is_spared(double changed, double changed_welded) {
+  return changed >= least_spared && changed_welded <= changed / 2;
+}
+
+constexpr std::string_view weld_note_begins = "--repair --weld ";
+
+/// What `weld_line` finds; empty where welding at the least distance that joins anything would
+/// spare little. One more repair.
+std::string weld_note(const TriangleMesh& mesh, const RepairedMesh& mended,
+                      const RepairOptions& done) {
+  const double changed = changed_share(mended);
+  const bool is_asked = done.component > 0 || done.weld_share >= 0 || done.weld_length >= 0;
+  if (is_asked || !done.cracks || changed < least_spared) return "";
+  const std::vector<double> shares = weld_shares(mesh);
+  if (shares.empty()) return "";
+  RepairOptions options = done;
+  options.weld_share = shares.front();
+  const RepairedMesh welded = repair_mesh(mesh, options);
+  if (!welded.inspection.is_sphere() || !is_spared(changed, changed_share(welded))) return "";
+  return std::string(weld_note_begins) + short_number(100 * options.weld_share, 6) +
+         "% puts in and drops " + percent(changed_share(welded)) + " of the area, not " +
+         percent(changed) + ": rounding keeps apart what belongs together";
+}
+
+void note_weld(MeshSource& source, const RepairedMesh& mended, const RepairOptions& done) try {
+  std::string note = weld_note(source.file.mesh, mended, done);
+  if (!note.empty()) source.notes.push_back(std::move(note));
+} catch (const std::bad_alloc&) {  // what was mended is not lost for that
+}
+
 MeshSource with_repairs(MeshSource source, RepairedMesh mended) {
   if (!mended.actions.empty()) source.added_share = added_share(mended);
   source.repairs = by_file_numbers(mended.actions, source);
@@ -168,8 +210,13 @@ RepairTrial trial_of(const MeshSource& source, const RepairOptions& options, Rep
           by_file_numbers(std::move(mended.handles), source)};
 }
 
+struct Tried {
+  RepairTrial trial;
+  double changed;  // see `changed_share`
+};
+
 /// With these, and with what more they take until the mesh is a sphere, or nothing is left to try.
-RepairTrial tried(const MeshSource& source, RepairOptions options) {
+Tried tried(const MeshSource& source, RepairOptions options) {
   constexpr double any_length = std::numeric_limits<double>::max();  // in diagonals
   KeptParts parts;
   for (;;) {
@@ -190,7 +237,8 @@ RepairTrial tried(const MeshSource& source, RepairOptions options) {
       }
     }
     options.longest_handle = limit_for(mended.handles);
-    return trial_of(source, options, std::move(mended), std::move(parts));
+    const double changed = changed_share(mended);
+    return {trial_of(source, options, std::move(mended), std::move(parts)), changed};
   }
 }
 
@@ -206,21 +254,25 @@ long changes_in(const RepairTrial& trial) {
 }
 
 /// Where a mesh is in pieces because what belongs together is apart by small errors: the repair
-/// that welds it and keeps it whole, at the distance that leaves least to be done besides.
-std::optional<RepairTrial> tried_welding(const MeshSource& source, const RepairOptions& wanted) {
+/// that welds it and keeps it whole, at the distance that leaves least to be done besides. With
+/// `only_least` the least distance alone is tried.
+std::optional<Tried> tried_welding(const MeshSource& source, const RepairOptions& wanted,
+                                   bool only_least) {
   if (wanted.component > 0 || wanted.weld_share >= 0 || wanted.weld_length >= 0)
     return std::nullopt;
-  std::optional<RepairTrial> best;
+  std::optional<Tried> best;
   for (const double share : weld_shares(source.file.mesh)) {
     RepairOptions options = all_as(wanted);
     options.weld_share = share;
     options.only_whole = true;
-    RepairTrial trial = tried(source, options);
-    trial.options.only_whole = false;
-    if (!trial.can_mend()) continue;
-    if (best && changes_in(*best) <= changes_in(trial)) break;  // from here on it gets worse
-    best = std::move(trial);
-    if (changes_in(*best) == 0) break;
+    Tried welded = tried(source, options);
+    welded.trial.options.only_whole = false;
+    if (welded.trial.can_mend()) {
+      if (best && changes_in(best->trial) <= changes_in(welded.trial)) break;  // it gets worse
+      best = std::move(welded);
+      if (changes_in(best->trial) == 0) break;
+    }
+    if (only_least) break;
   }
   return best;
 }
@@ -247,6 +299,7 @@ MeshRefusal::MeshRefusal(const MeshSource& source, std::optional<RepairTrial> tr
 
 MeshSource mended(MeshSource source, const RepairOptions& options) {
   RepairedMesh result = repair_mesh(source.file.mesh, options);
+  note_weld(source, result, options);
   return with_repairs(std::move(source), std::move(result));
 }
 
@@ -259,7 +312,10 @@ MeshFile written_as_mended(const MeshSource& source, std::vector<std::string>& l
 
 MeshSource repaired(MeshSource source, const RepairOptions& options) {
   RepairedMesh result = repair_mesh(source.file.mesh, options);
-  if (result.inspection.is_sphere()) return with_repairs(std::move(source), std::move(result));
+  if (result.inspection.is_sphere()) {
+    note_weld(source, result, options);
+    return with_repairs(std::move(source), std::move(result));
+  }
   // Components are numbered as they are in the mesh that was given.
   std::optional<RepairTrial> trial = affordable_trial(source, options);
   std::optional<PartsTrial> parts = affordable_parts(source, trial);
@@ -270,11 +326,23 @@ RepairTrial try_repair(const MeshSource& source, bool keep_holes) {
   return try_repair_beyond(source, {.keep_holes = keep_holes});
 }
 
+RepairTrial try_part(const MeshSource& part) { return std::move(tried(part, all_as({})).trial); }
+
+std::string weld_line(const MeshSource& source) {
+  const auto is_of_weld = [](const std::string& note) {
+    return note.starts_with(weld_note_begins);
+  };
+  const auto found = std::ranges::find_if(source.notes, is_of_weld);
+  return found == source.notes.end() ? "" : *found;
+}
+
 RepairTrial try_repair_beyond(const MeshSource& source, const RepairOptions& wanted) {
-  RepairTrial trial = tried(source, all_as(wanted));
-  if (!trial.parts.refused) return trial;
-  std::optional<RepairTrial> welded = tried_welding(source, wanted);
-  return welded ? std::move(*welded) : std::move(trial);
+  Tried plain = tried(source, all_as(wanted));
+  const bool in_pieces = plain.trial.parts.refused;
+  if (!in_pieces && plain.changed < least_spared) return std::move(plain.trial);
+  std::optional<Tried> welded = tried_welding(source, wanted, !in_pieces);
+  const bool spares = welded && (in_pieces || is_spared(plain.changed, welded->changed));
+  return spares ? std::move(welded->trial) : std::move(plain.trial);
 }
 
 UnaskedRepair try_repair_unasked(const MeshSource& source) {

@@ -60,7 +60,8 @@ Boundary boundary_of(const TriangleMesh& mesh) {
 
 using Cell = std::array<std::int64_t, 3>;
 
-bool nearly_all_have_a_near_one(const std::vector<Vector3>& places, double share) {
+/// How many have a near one.
+size_t near_ones(const std::vector<Vector3>& places, double share) {
   const double edge = share / (2 * std::sqrt(3.0));
   std::vector<Cell> cells;  // of all places, sorted
   for (const Vector3& p : places) {
@@ -86,7 +87,24 @@ bool nearly_all_have_a_near_one(const std::vector<Vector3>& places, double share
     if (j - i > 1 || has_neighbour(cells[i])) near += j - i;
     i = j;
   }
-  return static_cast<double>(near) >= nearly_all * static_cast<double>(cells.size());
+  return near;
+}
+
+bool nearly_all_have_a_near_one(const std::vector<Vector3>& places, double share) {
+  return static_cast<double>(near_ones(places, share)) >=
+         nearly_all * static_cast<double>(places.size());
+}
+
+/// Few steps of float32 at the largest coordinate: 0 where that is no share tried.
+double rounding_share(const TriangleMesh& mesh) {
+  constexpr double few_steps = 0x1p-21;
+  const double largest = mesh.positions.cwiseAbs().maxCoeff();
+  const Vector3 lower = mesh.positions.colwise().minCoeff() / largest,
+                upper = mesh.positions.colwise().maxCoeff() / largest;
+  const double rounding = few_steps / (upper - lower).norm();
+  const auto found = std::find_if(shares_tried.rbegin(), shares_tried.rend(),
+                                  [&](double share) { return share >= rounding; });
+  return found == shares_tried.rend() ? 0 : *found;
 }
 
 }  // namespace
@@ -100,6 +118,10 @@ std::vector<double> weld_shares(const TriangleMesh& mesh) {
     if (!nearly_all_have_a_near_one(boundary.places, share)) break;
     shares.insert(shares.begin(), share);
   }
+  if (!shares.empty() || boundary.places.empty()) return shares;
+  const double rounding = rounding_share(mesh);
+  const bool is_short = rounding > 0 && rounding * much_longer <= boundary.edge;
+  if (is_short && near_ones(boundary.places, rounding) > 0) shares.push_back(rounding);
   return shares;
 }
 

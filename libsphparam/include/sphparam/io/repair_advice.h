@@ -10,7 +10,9 @@
 namespace sphparam {
 
 /// `try_repair` where repairs were wanted that are not enough: the component, the kind of hole, the
-/// weld and the kind of handle that were chosen stay so. Throws: NoSuchComponent.
+/// weld and the kind of handle that were chosen stay so. A weld that nobody chose is tried where
+/// pieces are so near that they belong together, and where it spares much of what else would be put
+/// in or dropped. Throws: NoSuchComponent.
 RepairTrial try_repair_beyond(const MeshSource& source, const RepairOptions& wanted);
 
 /// What repair does unasked, and what it makes: none where that is not enough.
@@ -44,5 +46,9 @@ std::string repair_advice(const MeshRefusal& refusal, const std::string& command
 /// "what was put in is 0.4 % of the area, and has the texture of what is beside it"; empty where
 /// repairs put in nothing.
 std::string added_line(const MeshSource& source);
+
+/// "--repair --weld 2e-05% puts in and drops 0 % of the area, not 11.1 %: …", as the notes have it;
+/// empty where a weld would spare little of what repairs did.
+std::string weld_line(const MeshSource& source);
 
 }  // namespace sphparam
