@@ -147,6 +147,7 @@ TEST_CASE("distance: vertices that no triangle uses do not count") {
       measure_distance(ball, scaled(icosphere(2), 2), {.faces = false, .vertices = true});
   CHECK(apart.forth.min > 0.8);
   CHECK(apart.max() == Approx(1));
+  CHECK(apart.forth.at_vertices[ball.vertex_count() - 1] == Approx(1e200));
 }
 
 TEST_CASE("distance: what mean and RMS are taken over can be chosen") {

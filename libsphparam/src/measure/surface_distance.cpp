@@ -125,7 +125,7 @@ std::vector<char> used_vertices(const TriangleMesh& mesh) {
   return used;
 }
 
-Tally measure_vertices(Direction& direction, VertexDistances& result) {
+Tally measure_vertices(Direction& direction, const TriangleMesh& other, VertexDistances& result) {
   const std::vector<char> used = used_vertices(direction.from);
   result.distances.resize(direction.from.vertex_count());
   result.nearest.resize(used.size());
@@ -133,7 +133,10 @@ Tally measure_vertices(Direction& direction, VertexDistances& result) {
       direction.from.vertex_count(),
       [&](std::int64_t v) { return direction.from.position(static_cast<Vertex>(v)); }, 0,
       [&](std::int64_t v, double distance, Face face, const Vector3& point, Tally& tally) {
-        result.distances[v] = distance;
+        // From where squares are no numbers, which no used vertex is, all of the other is as far.
+        result.distances[v] = std::isfinite(distance)
+                                  ? distance
+                                  : (point - other.position(other.triangles(0, 0))).stableNorm();
         result.nearest[static_cast<size_t>(v)] = face;
         if (used[static_cast<size_t>(v)]) tally.add(distance, point);
       });
@@ -171,7 +174,7 @@ OneSidedDistance measure_one_side(Side side, const TriangleMesh& from, const Tri
   OneSidedDistance result;
   VertexDistances at_vertices;
   Tally vertices, samples;
-  if (asks_vertices) vertices = measure_vertices(direction, at_vertices);
+  if (asks_vertices) vertices = measure_vertices(direction, other, at_vertices);
   if (options.vertices) samples.add(vertices);
   if (options.edges) {
     const auto on_edges = samples_of<EdgeSamples>(from, side, "length of edges", options);
