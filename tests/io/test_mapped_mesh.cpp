@@ -222,6 +222,17 @@ TEST_CASE("mapped_mesh: rays become unit, those that are stay as they are") {
   CHECK(unit_rays(identity()).points == identity().points);
 }
 
+TEST_CASE("mapped_mesh: rays of any finite length are those of a map") {
+  for (const double length : {1e20, 1e100, 1e300, 1e-170}) {
+    INFO(length);
+    SphereMap map = identity();
+    map.points *= length;
+    const MappedMesh mapped({.file = egg_file(), .map = map});
+    CHECK((mapped.map().points - identity().points).cwiseAbs().maxCoeff() < 1e-15);
+    CHECK(mapped.with_map(map, {}).map().points == mapped.map().points);
+  }
+}
+
 TEST_CASE("mapped_mesh: copies share everything") {
   const MappedMesh mapped = egg();
   const MappedMesh copy = mapped;

@@ -9,6 +9,7 @@
 
 #include "io/attributes/array_lengths.h"
 #include "io/inspected_source.h"
+#include "sphere/radius.h"
 #include "sphparam/errors.h"
 #include "sphparam/io/certified_files.h"
 #include "sphparam/io/fillers.h"
@@ -112,6 +113,7 @@ void MappedMesh::prove(SphereMap map, Provenance provenance, bool mapped_here) {
   if (map.points.rows() != shape.file.mesh.vertex_count()) {
     throw std::invalid_argument("MappedMesh: a map has one ray a vertex");
   }
+  shorten(map.points);
   Certificate certificate = certify(shape.topology, map, shape.threads);
   require_certified(certificate, shape.name);
   SphereMap units = unit_rays(map);
