@@ -71,13 +71,6 @@ MeshSource source_of(const MeshSource& whole, const MeshFile& numbered, const Pa
   return source;
 }
 
-/// Those of the repairs that come before components.
-RepairOptions before_parts(RepairOptions repairs) {
-  repairs.components = repairs.holes = repairs.handles = false;
-  repairs.flat_faces = repairs.unused = false;
-  return repairs;
-}
-
 /// The places alone of a part. names: −1 for each vertex of the whole; for those of the part
 /// theirs then, as no other part has them.
 TriangleMesh mesh_of(const TriangleMesh& whole, const Part& part, std::vector<Vertex>& names) {
@@ -98,8 +91,14 @@ TriangleMesh mesh_of(const TriangleMesh& whole, const Part& part, std::vector<Ve
 
 }  // namespace
 
+RepairOptions before_components(RepairOptions repairs) {
+  repairs.components = repairs.holes = repairs.handles = false;
+  repairs.flat_faces = repairs.unused = false;
+  return repairs;
+}
+
 std::vector<MeshPart> connected_parts(MeshSource source, const RepairOptions& repairs) {
-  const RepairOptions first = before_parts(repairs);
+  const RepairOptions first = before_components(repairs);
   if (!names_of(first).empty()) source = mended(std::move(source), first);
   const std::vector<Part> parts = parts_of(source.file.mesh);
   std::vector<MeshPart> result;
@@ -127,7 +126,7 @@ bool PartsTrial::are_enough() const {
 // Its places are enough, so that thousands of parts cost no more than one.
 PartsTrial try_parts(const MeshSource& source) {
   PartsTrial trial;
-  const MeshSource whole = mended(source, before_parts({}));
+  const MeshSource whole = mended(source, before_components({}));
   const TriangleMesh& mesh = whole.file.mesh;
   const std::vector<Part> parts = parts_of(mesh);
   trial.parts = std::ssize(parts);

@@ -51,18 +51,11 @@ std::unique_ptr<Source> repair(const Source& source, const py::dict& values, boo
   });
 }
 
-/// Those of the repairs that come before parts.
-RepairOptions before_parts(RepairOptions options) {
-  options.components = options.holes = options.handles = false;
-  options.flat_faces = options.unused = false;
-  return options;
-}
-
 /// The connected parts, the largest first, and their shares of the area; mended before, as far as
 /// that comes before parts, where options are given.
 py::list components(const Source& source, const py::object& values, const py::object& progress) {
   std::optional<RepairOptions> options;
-  if (!values.is_none()) options = before_parts(repair_options(py::cast<py::dict>(values)));
+  if (!values.is_none()) options = before_components(repair_options(py::cast<py::dict>(values)));
   const auto mesh = std::make_shared<MeshSource>(source.mesh);
   auto parts = call(progress, [mesh, options](const Progress&) {
     if (options) {

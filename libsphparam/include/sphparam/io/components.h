@@ -12,6 +12,9 @@ struct MeshPart {
   double area_share = 1;  // of all parts; of a mesh without area, its share of the faces
 };
 
+/// Those of the repairs that come before components: the others are for each by itself.
+RepairOptions before_components(RepairOptions repairs);
+
 /// The connected parts of a mesh: what hangs together by vertices, once those of these repairs are
 /// done that come before components (`repairs` of each part tells them, of the whole mesh). The
 /// largest by area first; of equal ones that with more faces, then that with the lowest vertex.
