@@ -14,6 +14,7 @@
 
 #include "sphparam/io/scalar_type.h"
 #include "sphparam/parallel.h"
+#include "texts.h"
 
 namespace sphparam::python {
 namespace {
@@ -120,7 +121,7 @@ py::array values_of(const Property& property) {
 py::list columns_of(const std::vector<Property>& properties) {
   py::list list;
   for (const Property& property : properties)
-    list.append(py::make_tuple(property.name, values_of(property)));
+    list.append(py::make_tuple(as_text(property.name), values_of(property)));
   return list;
 }
 

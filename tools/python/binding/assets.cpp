@@ -63,26 +63,27 @@ py::object projection_of(const std::optional<ProjectionShares>& shares) {
 py::dict as_dict(const Made& made) {
   const RemadeAsset& remade = made.remade;
   py::dict images, dict, seconds;
-  for (const BakedImage& image : remade.baked.images) images[image.field.c_str()] = image.path;
+  for (const BakedImage& image : remade.baked.images)
+    images[image.field.c_str()] = FilePath(image.path);
   for (const auto& [stage, time] : remade.seconds) seconds[stage.c_str()] = time;
   py::list files;
-  for (const auto& [name, size] : remade.files) files.append(name);
+  for (const auto& [name, size] : remade.files) files.append(FilePath(name));
   dict["map"] = Mapped(remade.whole.mapped);
   dict["surface"] = word_of(remade.whole.by);
   dict["area_kept"] = remade.whole.area_kept;
-  dict["found"] = remade.whole.found;
-  dict["done"] = remade.whole.done;
-  dict["details"] = remade.whole.details;
+  dict["found"] = as_texts(remade.whole.found);
+  dict["done"] = as_texts(remade.whole.done);
+  dict["details"] = as_texts(remade.whole.details);
   dict["images"] = images;
   dict["projection"] = projection_of(remade.baked.projection);
   dict["files"] = files;
-  dict["warnings"] = remade.warnings;
-  dict["losses"] = losses_among(made.asset.notes);
+  dict["warnings"] = as_texts(remade.warnings);
+  dict["losses"] = as_texts(losses_among(made.asset.notes));
   dict["seconds"] = seconds;
   return dict;
 }
 
-py::dict asset(const std::string& path, const std::string& folder, const py::dict& values,
+py::dict asset(const FilePath& path, const FilePath& folder, const py::dict& values,
                const py::object& progress) {
   const RemakeOptions wanted = options_of(values);
   return as_dict(writing_call(progress, [wanted, path, folder](const Progress& report) {
@@ -96,7 +97,8 @@ py::dict asset(const std::string& path, const std::string& folder, const py::dic
 
 void declare_assets(py::module_& module) {
   module.def("asset", asset);
-  module.def("asset_folder", [](const std::string& path) { return stem_of(path) + "_sphere"; });
+  module.def("asset_folder",
+             [](const FilePath& path) { return FilePath(stem_of(path) + "_sphere"); });
 }
 
 }  // namespace sphparam::python

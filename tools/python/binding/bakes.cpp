@@ -69,7 +69,7 @@ BakeSettings bake_settings(const py::dict& values) {
   Settings settings(values);
   settings.take("size", made.width)
       .take("samples", made.samples)
-      .take("texture", made.texture)
+      .take_path("texture", made.texture)
       .take("refine_poles", made.refine_poles)
       .take("mip", made.mip)
       .take("threads", made.threads)
@@ -143,7 +143,7 @@ py::list bake_to_arrays(const Mapped& mapped, const std::vector<std::string>& fi
 }
 
 py::list bake_to_files(const Mapped& mapped,
-                       const std::vector<std::pair<std::string, std::string>>& images,
+                       const std::vector<std::pair<std::string, FilePath>>& images,
                        const py::dict& values, const py::object& progress) {
   BakeSettings settings = bake_settings(values);
   std::vector<BakeRequest> requests;
@@ -156,10 +156,11 @@ py::list bake_to_files(const Mapped& mapped,
   py::list list;
   for (const BakedImage& image : report.images) {
     const auto beyond = std::isnan(image.beyond) ? std::nullopt : std::optional(image.beyond);
-    list.append(py::make_tuple(image.field, image.about, image.path, name_of(image.sample_type),
-                               image.channels, image.range, image.sidecar, beyond));
+    list.append(py::make_tuple(image.field, image.about, FilePath(image.path),
+                               name_of(image.sample_type), image.channels, image.range,
+                               FilePath(image.sidecar), beyond));
   }
-  list.append(report.warnings);
+  list.append(as_texts(report.warnings));
   return list;
 }
 

@@ -17,6 +17,7 @@
 #include "sphparam/parameterize.h"
 #include "sphparam/sphere/certificate.h"
 #include "sphparam/texture/convention.h"
+#include "texts.h"
 
 namespace sphparam::python {
 
@@ -134,6 +135,11 @@ class Settings {
   template <class Value>
   Settings& take(const char* name, Value& value) {
     if (has(name)) value = cast<Value>(name);
+    return *this;
+  }
+  /// The same for the name of a file.
+  Settings& take_path(const char* name, std::string& value) {
+    if (has(name)) value = cast<FilePath>(name);
     return *this;
   }
   /// The same for a word.

@@ -1,6 +1,7 @@
 #include "call.h"
 
 #include <chrono>
+#include <set>
 #include <vector>
 
 #include "sphparam/stopped_by.h"
@@ -29,16 +30,75 @@ class LeftCalls {
   std::vector<std::thread> threads_;
 };
 
-LeftCalls& left_calls() {
-  static LeftCalls calls;
+LeftCalls*& left_calls() {
+  static auto* calls = new LeftCalls;
   return calls;
+}
+
+/// Calls that threads of Python wait for. One that Python ends by force, as it does with daemon
+/// threads that come back for its lock when it has ended, takes the whole process with it.
+class OpenCalls {
+ public:
+  /// Throws Cancelled where Python ends, and not in this thread.
+  void begin(CallState& call) {
+    const std::lock_guard lock(mutex_);
+    if (ending_ && *ending_ != std::this_thread::get_id()) throw Cancelled();
+    calls_.insert(&call);
+  }
+  void end(CallState& call) {
+    const std::lock_guard lock(mutex_);
+    calls_.erase(&call);
+    changed_.notify_all();
+  }
+  /// Stops them, and those that would follow, and waits until the last one is over.
+  void stop() {
+    std::unique_lock lock(mutex_);
+    ending_ = std::this_thread::get_id();
+    for (CallState* const call : calls_) call->cancel();
+    changed_.wait(lock, [this] { return calls_.empty(); });
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::set<CallState*> calls_;
+  std::optional<std::thread::id> ending_;
+};
+
+OpenCalls*& open_calls() {
+  static auto* calls = new OpenCalls;
+  return calls;
+}
+
+/// One of them, as long as this lives.
+class OpenCall {
+ public:
+  explicit OpenCall(CallState& call) : call_(call) { open_calls()->begin(call); }
+  ~OpenCall() { open_calls()->end(call_); }
+  OpenCall(const OpenCall&) = delete;
+  OpenCall& operator=(const OpenCall&) = delete;
+
+ private:
+  CallState& call_;
+};
+
+/// False, of NumPy's comparisons too; None goes on.
+bool says_no(const py::object& answer) {
+  py::detail::make_caster<bool> truth;
+  return truth.load(answer, false) && !static_cast<bool>(truth);
 }
 
 }  // namespace
 
-void wait_for_left_calls() {
+void end_calls() {
   const py::gil_scoped_release unlocked;
-  left_calls().wait();
+  open_calls()->stop();
+  left_calls()->wait();
+}
+
+void forget_calls() {
+  left_calls() = new LeftCalls;
+  open_calls() = new OpenCalls;
 }
 
 bool CallState::note(std::string_view stage, double fraction) {
@@ -79,19 +139,20 @@ void CallState::listen(const py::object& progress) {
     if (!std::exchange(has_news_, false)) return;
     stage = stage_, fraction = fraction_;
   }
-  if (progress(stage, fraction).is(py::bool_(false))) cancelled_ = true;
+  if (says_no(progress(stage, fraction))) cancel();
 }
 
 void CallState::finish(const std::shared_ptr<CallState>& state, const py::object& progress,
                        bool leaves) {
+  const OpenCall open(*state);
   std::thread thread([state] { state->run(); });
   try {
     while (!state->wait_a_little()) state->listen(progress);
     state->listen(progress);
   } catch (...) {
-    state->cancelled_ = true;
+    state->cancel();
     if (leaves) {
-      left_calls().add(std::move(thread));
+      left_calls()->add(std::move(thread));
     } else {
       const py::gil_scoped_release unlocked;
       thread.join();

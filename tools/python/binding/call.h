@@ -31,6 +31,9 @@ class CallState {
   /// In the library's thread: does the work.
   void run();
 
+  /// In any thread: the work is to stop.
+  void cancel() { cancelled_ = true; }
+
   /// In Python's thread, with its lock: waits for the end, with `progress` called as
   /// progress(stage, fraction) on the way. Throws: what the work threw; what `progress` threw, or
   /// KeyboardInterrupt, as py::error_already_set.
@@ -56,8 +59,12 @@ class CallState {
   std::exception_ptr error_;
 };
 
-/// Waits for the threads that were left behind: Python calls it before it ends.
-void wait_for_left_calls();
+/// Stops calls of other threads and waits for all, those left behind too: Python calls it before
+/// it ends.
+void end_calls();
+
+/// In a process that was just forked, which has none of these threads.
+void forget_calls();
 
 template <class Result>
 class Call : public CallState {

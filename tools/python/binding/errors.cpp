@@ -34,8 +34,15 @@ py::object class_of(const char* name) {
   return attribute(py::module_::import("sphparam._errors"), name);
 }
 
+/// The message may have names of files in it, and words of these, and options of the program, which
+/// are said as they are typed in Python.
+void set_error(const py::handle& type, const std::string& message) {
+  const py::object here = class_of("as_typed_here")(as_text(message));
+  PyErr_SetObject(type.ptr(), here.ptr());
+}
+
 void raise(const char* name, const std::exception& error) {
-  PyErr_SetString(class_of(name).ptr(), error.what());
+  set_error(class_of(name), error.what());
 }
 
 /// Of `repair`, those keyword arguments that are not as they are unasked.
@@ -86,7 +93,7 @@ void raise_mesh_error(const MeshError& error) {
 void raise_not_one_to_one(const NotOneToOne& error) {
   const py::object type = class_of("NotCertified");
   const py::object value =
-      attribute(type, "_of")(std::string(error.what()), as_dict(error.certificate()));
+      attribute(type, "_of")(as_text(error.what()), as_dict(error.certificate()));
   PyErr_SetObject(type.ptr(), value.ptr());
 }
 
@@ -95,7 +102,7 @@ void raise_field_error(const FieldError& error) {
   std::string known;
   for (const std::string& name : error.known())
     known += (known.empty() ? "; there are " : ", ") + name;
-  PyErr_SetString(PyExc_ValueError, (error.what() + known).c_str());
+  set_error(PyExc_ValueError, error.what() + known);
 }
 
 }  // namespace
@@ -126,32 +133,34 @@ void declare_errors(py::module_&) {
     } catch (const SolveError& error) {
       raise("SolveError", error);
     } catch (const UnmeasurableMesh& error) {
-      PyErr_SetString(PyExc_ValueError, error.what());
+      set_error(PyExc_ValueError, error.what());
     } catch (const FieldError& error) {
       raise_field_error(error);
     } catch (const BakeSettingError& error) {
       const std::string name = error.setting() == "width"  ? "size"
                                : error.setting() == "from" ? "surface"
                                                            : error.setting();
-      PyErr_SetString(PyExc_ValueError, (name + ": " + error.reason()).c_str());
+      set_error(PyExc_ValueError, name + ": " + error.reason());
     } catch (const FrontError& error) {
-      PyErr_SetString(PyExc_ValueError, (std::string("front: ") + error.what()).c_str());
+      set_error(PyExc_ValueError, std::string("front: ") + error.what());
     } catch (const LookError& error) {
-      PyErr_SetString(PyExc_ValueError, error.what());
+      set_error(PyExc_ValueError, error.what());
     } catch (const ImageOfOtherChart& error) {
-      PyErr_SetString(PyExc_ValueError, error.what());
+      set_error(PyExc_ValueError, error.what());
     } catch (const UnlikeSurfaces& error) {
-      PyErr_SetString(PyExc_ValueError, error.what());
+      set_error(PyExc_ValueError, error.what());
     } catch (const OtherSphereError& error) {
-      PyErr_SetString(PyExc_ValueError, error.what());
+      set_error(PyExc_ValueError, error.what());
     } catch (const AtlasError& error) {
-      PyErr_SetString(PyExc_ValueError, error.what());
+      set_error(PyExc_ValueError, error.what());
     } catch (const NoSuchVertex& error) {
-      PyErr_SetString(PyExc_ValueError, (error.whose() + ": " + error.what()).c_str());
+      set_error(PyExc_ValueError, error.whose() + ": " + error.what());
     } catch (const NoSuchComponent& error) {
-      PyErr_SetString(PyExc_ValueError, error.what());
+      set_error(PyExc_ValueError, error.what());
+    } catch (const std::invalid_argument& error) {
+      set_error(PyExc_ValueError, error.what());
     } catch (const std::range_error& error) {
-      PyErr_SetString(PyExc_ValueError, error.what());
+      set_error(PyExc_ValueError, error.what());
     }
   });
 }

@@ -26,10 +26,10 @@ struct ExportRequest {
 };
 
 void take_look(Settings& settings, LookOptions& look) {
-  settings.take("texture", look.texture)
-      .take("normal_map", look.normal)
-      .take("occlusion_map", look.occlusion)
-      .take("images", look.folder)
+  settings.take_path("texture", look.texture)
+      .take_path("normal_map", look.normal)
+      .take_path("occlusion_map", look.occlusion)
+      .take_path("images", look.folder)
       .take("variants", look.variants)
       .take("image_size", look.image_width)
       .take("unlit", look.unlit)
@@ -93,7 +93,7 @@ Exported export_mesh(const std::string& path, const MappedMesh& mesh,
   return {std::move(written), asset.warnings};
 }
 
-py::tuple write_export(const Mapped& mapped, const std::string& path, const py::dict& values,
+py::tuple write_export(const Mapped& mapped, const FilePath& path, const py::dict& values,
                        const py::object& progress) {
   ExportRequest request = request_of(values);
   Exported exported =
@@ -101,10 +101,13 @@ py::tuple write_export(const Mapped& mapped, const std::string& path, const py::
         request.options.progress = report;
         return export_mesh(path, mesh, request);
       });
-  return py::make_tuple(exported.files, exported.warnings);
+  py::list files;
+  for (const auto& [name, size] : exported.files)
+    files.append(py::make_tuple(FilePath(name), size));
+  return py::make_tuple(files, as_texts(exported.warnings));
 }
 
-void write_page(const Mapped& mapped, const std::string& path, int size, const std::string& up,
+void write_page(const Mapped& mapped, const FilePath& path, int size, const std::string& up,
                 const std::string& front, int threads, const py::object& progress) {
   writing_call(progress, [=, mesh = mapped.mesh()](const Progress& report) {
     PageOptions options{.size = size, .threads = threads, .progress = report};

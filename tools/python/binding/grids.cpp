@@ -171,9 +171,9 @@ Mapped textured_control(const Fitted& fitted, int width, int height, int threads
   });
 }
 
-py::dict displace(const Fitted& fitted, const std::string& path, const std::string& rebuilt,
-                  int width, int height, const std::string& layout, const std::string& depth,
-                  int threads, const py::object& progress) {
+py::dict displace(const Fitted& fitted, const FilePath& path, const FilePath& rebuilt, int width,
+                  int height, const std::string& layout, const std::string& depth, int threads,
+                  const py::object& progress) {
   const DisplacementFiles files{path, depth_named(depth), rebuilt};
   const DisplacementLayout lies = named(
       layout, {DisplacementLayout::Equirectangular, DisplacementLayout::Grid},

@@ -41,7 +41,7 @@ py::dict member_of(const GroupMember& member) {
   dict["confidence"] = member.confidence;
   dict["resampling_rms"] = member.resampling_rms;
   dict["resampling_max"] = member.resampling_max;
-  dict["warnings"] = member.warnings;
+  dict["warnings"] = as_texts(member.warnings);
   return dict;
 }
 

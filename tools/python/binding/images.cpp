@@ -19,7 +19,7 @@ namespace sphparam::python {
 namespace {
 
 /// Red, green, blue and perhaps alpha of each vertex, 0 to 255; and warnings.
-py::tuple paint(const Mapped& mapped, const std::string& path, const std::string& convention,
+py::tuple paint(const Mapped& mapped, const FilePath& path, const std::string& convention,
                 int threads, const py::object& progress) {
   const Convention longitude = convention_of(convention);
   const auto [channels,
@@ -42,12 +42,11 @@ py::tuple paint(const Mapped& mapped, const std::string& path, const std::string
     for (const auto& channel : channels) colours.push_back(static_cast<std::uint8_t>(channel[v]));
   const std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(count),
                                        static_cast<py::ssize_t>(channels.size())};
-  return py::make_tuple(owning(std::move(colours), shape), warnings);
+  return py::make_tuple(owning(std::move(colours), shape), as_texts(warnings));
 }
 
-py::tuple paint_texture(const Mapped& mapped, const std::string& path,
-                        const std::string& convention, int size, int padding, int threads,
-                        const py::object& progress) {
+py::tuple paint_texture(const Mapped& mapped, const FilePath& path, const std::string& convention,
+                        int size, int padding, int threads, const py::object& progress) {
   const Convention longitude = convention_of(convention);
   auto [atlas, warnings] = call(progress, [=, mesh = mapped.mesh()](const Progress& report) {
     const EquirectangularImage image = read_equirectangular(path, longitude, threads);
@@ -59,7 +58,7 @@ py::tuple paint_texture(const Mapped& mapped, const std::string& path,
     return std::pair(std::move(painted.image), std::move(told));
   });
   const std::vector<py::ssize_t> shape{atlas.height, atlas.width, atlas.channels};
-  return py::make_tuple(owning(std::move(atlas.pixels), shape), warnings);
+  return py::make_tuple(owning(std::move(atlas.pixels), shape), as_texts(warnings));
 }
 
 const char* word_of(View view) {

@@ -62,7 +62,7 @@ py::object account(const Mapped& mapped) {
   dict["pole_cost"] = made.pole_cost;
   dict["energy_gap"] = made.energy_gap;
   dict["pin_residuals"] = made.pin_residuals;
-  dict["warnings"] = made.warnings;
+  dict["warnings"] = as_texts(made.warnings);
   dict["filler_share"] = made.filler_share;
   dict["alignment"] = made.alignment;
   dict["radial"] = py::none();
@@ -77,6 +77,14 @@ py::object account(const Mapped& mapped) {
                        stage.distortion ? py::object(as_dict(*stage.distortion)) : py::none()));
   dict["stages"] = stages;
   return dict;
+}
+
+/// What a header says, key by key.
+py::list lines_of(const Provenance& provenance) {
+  py::list list;
+  for (const auto& [key, value] : provenance)
+    list.append(py::make_tuple(as_text(key), as_text(value)));
+  return list;
 }
 
 /// The faces as they were written: quads of a grid too.
@@ -121,10 +129,11 @@ void declare_mapped(py::module_& module) {
                              [](const py::object& self) {
                                return shown_rows(self.cast<const Mapped&>().map().points, self);
                              })
-      .def_property_readonly("name", [](const Mapped& self) { return self.mesh().name(); })
-      .def_property_readonly("notes", [](const Mapped& self) { return self.mesh().notes(); })
+      .def_property_readonly("name", [](const Mapped& self) { return as_text(self.mesh().name()); })
+      .def_property_readonly("notes",
+                             [](const Mapped& self) { return as_texts(self.mesh().notes()); })
       .def_property_readonly("provenance",
-                             [](const Mapped& self) { return self.mesh().provenance(); })
+                             [](const Mapped& self) { return lines_of(self.mesh().provenance()); })
       .def_property_readonly("mapped_here",
                              [](const Mapped& self) { return self.mesh().mapped_here(); })
       .def_property_readonly("certificate",

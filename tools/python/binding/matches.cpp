@@ -78,7 +78,7 @@ py::tuple match(const Mapped& from, const Mapped& to, const Pairs& pairs,
   });
   return py::make_tuple(Mapped(found.map.from()), found.energy, found.made_by,
                         owning(std::move(found.residuals)), found.confidence, found.agreement,
-                        found.warnings);
+                        as_texts(found.warnings));
 }
 
 /// The first one's mesh on the second one's sphere, and what is worth a warning of it.
@@ -89,7 +89,7 @@ py::tuple like(const Mapped& mesh, const Mapped& other, int threads, const py::o
   });
   std::vector<std::string> warnings;
   if (found.in_place < nearly_all) warnings.push_back(to_text(found));
-  return py::make_tuple(Mapped(found.mapped), warnings);
+  return py::make_tuple(Mapped(found.mapped), as_texts(warnings));
 }
 
 py::dict matched_distortion(const Mapped& from, const Mapped& to, int threads) {
@@ -107,19 +107,18 @@ Placement placement_of(const std::string& word) {
 }
 
 /// Writes a .glb; returns warnings.
-std::vector<std::string> write_morph(const Mapped& from, const Mapped& to, const std::string& path,
-                                     const std::string& place, const std::string& up,
-                                     const std::string& front, int image_size, int threads,
-                                     const py::object& progress) {
+py::list write_morph(const Mapped& from, const Mapped& to, const FilePath& path,
+                     const std::string& place, const std::string& up, const std::string& front,
+                     int image_size, int threads, const py::object& progress) {
   const Placement placement = placement_of(place);
   ExportOptions options{.up = up_of(up, front), .threads = threads};
   options.look.image_width = image_size;
-  return writing_call(progress, [=, from = from, to = to](const Progress& report) mutable {
+  return as_texts(writing_call(progress, [=, from = from, to = to](const Progress& report) mutable {
     options.progress = report;
     const Asset asset = make_morph(SurfaceMap(from.mesh(), to.mesh()), placement, options);
     write_asset(path, asset);
     return asset.warnings;
-  });
+  }));
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ py::tuple source_of(const py::array& vertices, const py::array& faces) {
   return py::make_tuple(std::move(source), finite, inside);
 }
 
-std::unique_ptr<Source> read(const std::string& path, bool repeated_corners, bool non_finite) {
+std::unique_ptr<Source> read(const FilePath& path, bool repeated_corners, bool non_finite) {
   ReadOptions options;
   options.repeated_corners = repeated_corners;
   options.non_finite = non_finite;
@@ -76,9 +76,9 @@ py::dict inspect(const Source& source) {
 }
 
 /// Returns what the format had no place for.
-std::vector<std::string> write(const Source& source, const std::string& path) {
+py::list write(const Source& source, const FilePath& path) {
   const auto mesh = std::make_shared<const MeshSource>(source.mesh);
-  return writing_call(py::none(), [mesh, path](const Progress&) {
+  return as_texts(writing_call(py::none(), [mesh, path](const Progress&) {
     std::vector<std::string> losses;
     const MeshFile file = written_as_mended(*mesh, losses);
     PendingFiles files;
@@ -86,7 +86,7 @@ std::vector<std::string> write(const Source& source, const std::string& path) {
     files.publish();
     losses.insert(losses.end(), more.begin(), more.end());
     return losses;
-  });
+  }));
 }
 
 py::array fillers(const Source& source) {
@@ -134,15 +134,16 @@ void declare_meshes(py::module_& module) {
                                    self.cast<const Source&>().mesh.file.corner_texcoords, self);
                              })
       .def_property(
-          "path", [](const Source& self) { return self.mesh.path; },
-          [](Source& self, const std::string& path) { self.mesh.path = path; })
+          "path", [](const Source& self) { return FilePath(self.mesh.path); },
+          [](Source& self, const FilePath& path) { self.mesh.path = path; })
       .def_property_readonly("format", [](const Source& self) { return self.mesh.file.format; })
-      .def_property_readonly("notes", [](const Source& self) { return self.mesh.notes; })
-      .def_property_readonly("losses",
-                             [](const Source& self) { return losses_among(self.mesh.notes); })
+      .def_property_readonly("notes", [](const Source& self) { return as_texts(self.mesh.notes); })
+      .def_property_readonly(
+          "losses", [](const Source& self) { return as_texts(losses_among(self.mesh.notes)); })
       .def_property_readonly("materials",
-                             [](const Source& self) { return self.mesh.file.materials; })
-      .def_property_readonly("comments", [](const Source& self) { return self.mesh.file.comments; })
+                             [](const Source& self) { return as_texts(self.mesh.file.materials); })
+      .def_property_readonly("comments",
+                             [](const Source& self) { return as_texts(self.mesh.file.comments); })
       .def_property_readonly("is_sound",
                              [](const Source& self) { return is_sound(self.mesh.inspection); })
       .def_property_readonly("fillers", fillers)
@@ -164,6 +165,11 @@ void declare_meshes(py::module_& module) {
           [](Source& self, const std::string& name, const std::string& type, const Values& values) {
             self.mesh.file.set_vertex_property(property_of(name, type, values));
           })
+      .def("drop_vertex_values",
+           [](Source& self, const std::string& name) {
+             std::erase_if(self.mesh.file.vertex_properties,
+                           [&](const Property& property) { return property.name == name; });
+           })
       .def("set_face_values", [](Source& self, const std::string& name, const std::string& type,
                                  const Values& values) {
         self.mesh.file.set_face_property(property_of(name, type, values));

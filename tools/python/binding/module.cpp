@@ -23,5 +23,8 @@ PYBIND11_MODULE(_core, module) {
   declare_groups(module);
   declare_wraps(module);
   declare_assets(module);
-  py::module_::import("atexit").attr("register")(py::cpp_function(wait_for_left_calls));
+  py::module_::import("atexit").attr("register")(py::cpp_function(end_calls));
+  using namespace py::literals;
+  py::module_::import("os").attr("register_at_fork")("after_in_child"_a =
+                                                         py::cpp_function(forget_calls));
 }
