@@ -269,9 +269,15 @@ def test_progress_is_told_in_the_thread_that_asked():
     assert told and all(isinstance(s, str) and 0 <= f <= 1 for s, f in told)
 
 
-def test_progress_that_says_false_stops():
+@pytest.mark.parametrize("no", [False, np.False_, np.float64(1) < 0])
+def test_progress_that_says_false_stops(no):
     with pytest.raises(sp.Cancelled):
-        sp.map(*potato(7), progress=lambda stage, fraction: False)
+        sp.map(*potato(7), progress=lambda stage, fraction: no)
+
+
+@pytest.mark.parametrize("answer", [None, True, np.True_, 0])
+def test_progress_that_says_anything_else_goes_on(answer):
+    assert sp.map(*potato(4), progress=lambda stage, fraction: answer).certificate.one_to_one
 
 
 def test_progress_that_raises_stops():
@@ -387,3 +393,22 @@ def test_a_program_may_end_while_a_left_call_runs():
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert (done.stdout, done.returncode) == ("heard\n", 0), done.stderr
+
+
+def test_a_program_may_end_while_a_daemon_thread_maps():
+    code = (
+        "import sys, threading, time\n"
+        f"sys.path.insert(0, {os.path.dirname(__file__)!r})\n"
+        "import numpy, shapes, sphparam as sp\n"
+        "def work():\n"
+        "    while True:\n"
+        "        try:\n"
+        "            sp.map(*shapes.potato(7), quality='best')\n"
+        "        except sp.Cancelled:\n"
+        "            print('cancelled', flush=True)\n"
+        "            time.sleep(0.01)\n"
+        "threading.Thread(target=work, daemon=True).start()\n"
+        "time.sleep(0.5)\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr

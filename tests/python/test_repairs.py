@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import sphparam as sp
-from shapes import potato, sphere
+from shapes import potato, sphere, torus
 
 V, F = potato(4)
 
@@ -129,6 +129,17 @@ def several():
     """A large part, a small one, and a speck."""
     other = np.r_[V, 0.3 * V + 9, 1e-3 * V - 9]
     return other, np.r_[F, F + len(V), F + 2 * len(V)]
+
+
+@pytest.mark.parametrize("broken", [several, torus])
+def test_a_file_is_refused_with_the_advice_that_arrays_get(broken, tmp_path):
+    sp.write(tmp_path / "a.ply", *broken())
+    texts = []
+    for mesh in (sp.read(tmp_path / "a.ply"), sp.Mesh(*broken())):
+        with pytest.raises(sp.MeshError) as caught:
+            sp.map(mesh)
+        texts.append(str(caught.value))
+    assert texts[0] == texts[1] and "map(mesh, repair=" in texts[0]
 
 
 def test_parts_are_mapped_one_by_one():

@@ -75,8 +75,10 @@ def map(
     method
         ``"progressive"``; ``"curvilinear"``, the paper made sound; ``"paper"``, as printed, which folds;
         ``"radial"``, directions from a centre: planetocentric where the body is star-shaped.
+        North is what points up, by the mesh's file or ``up``.
     balance
-        ``"balanced"``, ``"conformal"``, ``"equal-area"``, or a number: the weight of area against angle.
+        ``"balanced"``; ``"conformal"``, areas weigh next to nothing; ``"equal-area"``: the mean |log2 area
+        ratio|, weighted by area, is at most 0.1; or a number: the weight of area against angle.
     weight
         That weight, 1e-10 to 1e6.
     quality
