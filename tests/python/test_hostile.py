@@ -282,6 +282,7 @@ bad_uses = {
     "match: a text for a truth": (lambda m: sp.match(m, m, alike="yes"), TypeError, "alike"),
     "match: no weight of no features": (lambda m: sp.match(m, m, (), feature_weight=np.nan), ValueError, "feature_weight"),
     "export: a number": (lambda m: m.export("a.glb", texture=3), ValueError, "not a single number"),
+    "bake: above no body": (lambda m: m.bake("elevation", size=16), ValueError, r"\(body=\)$"),
     "bake: no such field": (lambda m: m.bake("normal"), ValueError, "normal"),
     "bake: odd size": (lambda m: m.bake("position", size=5), ValueError, "even"),
     "bake: a size beyond": (lambda m: m.bake("position", size=10**6), ValueError, "65536"),
