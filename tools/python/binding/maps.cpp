@@ -34,12 +34,10 @@ void inspect_by_file_numbers(MeshSource& source) {
 
 /// The topology of what can be mapped. Throws MeshRefusal, with what repair would do.
 Topology topology_of(MeshSource& source) {
-  if (source.topology) {
+  try {
+    if (!source.topology) return require_sphere(source.file.mesh);
     require_sphere(source.file.mesh, *source.topology);
     return std::move(*source.topology);
-  }
-  try {
-    return require_sphere(source.file.mesh);
   } catch (const MeshError&) {
     inspect_by_file_numbers(source);
     sphparam::refuse(source);
