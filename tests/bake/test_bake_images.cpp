@@ -227,6 +227,27 @@ TEST_CASE("bake images: labels are whole in the samples that they get, or refuse
   holds(16777216, "l.exr", SampleType::Float);
 }
 
+TEST_CASE("bake images: labels are whole steps of integers, so that none is rounded") {
+  const Folder folder;
+  MeshFile file;
+  file.mesh = icosphere(2);
+  SphereMap map{file.mesh.positions};
+  Property label{"label", ScalarType::Int32, std::vector<double>(320, 3.0)};
+  label.values[17] = 7, label.values.back() = 12;
+  file.set_face_property(std::move(label));
+  const MappedMesh source({.file = std::move(file), .map = std::move(map), .name = "labelled"});
+  const auto step = [&](SampleType type, double full) {
+    BakeSettings settings = small;
+    settings.depth = type;
+    const auto range =
+        bake(source, {{"scalar:label", folder / "l.png"}}, settings).images[0].range.value();
+    CHECK(range.first == 3);
+    return full / (range.second - range.first);
+  };
+  CHECK(step(SampleType::Uint8, 255) == Approx(28).epsilon(1e-12));
+  CHECK(step(SampleType::Uint16, 65535) == Approx(7281).epsilon(1e-12));
+}
+
 TEST_CASE("bake images: labels are whole where holes were closed, too, or refused") {
   const Folder folder;
   MappedMesh whole = egg(3);

@@ -61,6 +61,16 @@ void require_exact_labels(const PlannedImage& image) {
                    (type == SampleType::Float ? "" : "; float holds more, in a .tif or .exr"));
 }
 
+/// Whole steps of an integer type from label to label, so that what is read is a whole number, too.
+void spread_labels(PlannedImage& image) {
+  if (image.field.kind != FieldKind::Label || !image.field.range ||
+      image.field.proper_channels() > 1 || !is_integer(image.file.sample_type))
+    return;
+  auto& [least, greatest] = *image.field.range;
+  const double full = exact_numbers(image.file.sample_type);
+  greatest = least + full / std::floor(full / std::max(greatest - least, 1.0));
+}
+
 void require_channels(const PlannedImage& image) {
   constexpr int colours_and_alpha = 4;
   const bool has_alpha = image.field.channels % 2 == 0;  // of one channel, or of three
@@ -101,6 +111,7 @@ PlannedImage plan_image(const BakeRequest& request, BakeScene& scene,
                                     has_numbers(image.field), image.field.eight_bits);
   require_channels(image);
   require_exact_labels(image);
+  spread_labels(image);
   return image;
 }
 
