@@ -493,6 +493,21 @@ def test_a_map_of_somebodys_is_judged():
     assert sp.with_sphere((vertices, faces), 7 * vertices).certificate.one_to_one
 
 
+@pytest.mark.parametrize("length", [1e20, 1e100, 1e160, 1e300, 1e-160])
+def test_directions_have_any_length_but_zero(mapped, length):
+    mesh, rays = (mapped.vertices, mapped.faces), mapped.points
+    far = rays * length
+    assert np.abs(sp.with_sphere(mesh, far).points - rays).max() < 1e-15
+    found = sp.verify(*mesh, far)
+    assert found.one_to_one and not found.reversed
+    assert length < 1 or found.max_length_error == pytest.approx(length)
+    inside = sp.verify(*mesh, -far)
+    assert inside.one_to_one and inside.reversed
+    harmonics = mapped.spharm(3)
+    assert np.abs(harmonics(far) - harmonics(rays)).max() < 1e-12
+    assert np.abs(mapped.resample("vertices", far) - mapped.vertices).max() < 1e-12
+
+
 # Notebooks.
 
 

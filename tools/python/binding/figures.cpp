@@ -8,6 +8,7 @@
 #include "sphparam/io/fillers.h"
 #include "sphparam/io/harmonic_expansion.h"
 #include "sphparam/measure/surface_distance.h"
+#include "sphparam/sphere/sphere_map.h"
 #include "sphparam/sphere/spherical_harmonics.h"
 
 namespace sphparam::python {
@@ -59,8 +60,7 @@ py::dict expand(const Mapped& mapped, int degree, const std::vector<std::string>
 py::array evaluate(const py::array_t<double, py::array::c_style>& coefficients,
                    const py::array& rows, int threads) {
   bool finite = true;
-  Points directions = points_of(rows, finite);
-  directions.rowwise().normalize();
+  const Points directions = normalised(points_of(rows, finite)).points;
   Functions table(coefficients.shape(0), coefficients.shape(1));
   std::copy(coefficients.data(), coefficients.data() + coefficients.size(), table.data());
   return owning_rows(

@@ -9,6 +9,7 @@
 #include "call.h"
 #include "io/inspected_source.h"
 #include "map_request.h"
+#include "sphere/radius.h"
 #include "sphparam/frame_check.h"
 #include "sphparam/io/certified_files.h"
 #include "sphparam/io/file_numbers.h"
@@ -117,7 +118,7 @@ Mapped map(Source& source, bool taken, const py::dict& values, const py::object&
 }
 
 /// A mesh and the map that its file or another one has; one is made where there is none.
-Mapped load(const std::string& path, const std::string& sphere, const py::dict& values,
+Mapped load(const FilePath& path, const FilePath& sphere, const py::dict& values,
             const py::object& progress) {
   LoadOptions options{.sphere = sphere, .map = map_request_of(values).options};
   return call(progress, [path, options](const Progress& report) mutable {
@@ -132,6 +133,7 @@ Mapped with_points(const Source& source, const py::array& rays, int threads) {
   bool finite = true;
   const auto points = std::make_shared<SphereMap>(SphereMap{points_of(rays, finite)});
   return call(py::none(), [=](const Progress&) {
+    shorten(points->points);
     Topology topology = topology_of(*mesh);
     const Certificate certificate = certify(topology, *points, threads);
     if (!certificate.bijective())
@@ -157,59 +159,37 @@ FillersInFile fillers_named(const std::string& word) {
 }
 
 /// Returns what the format had no place for.
-std::vector<std::string> save(const Mapped& mapped, const std::string& path,
-                              const std::string& holes, int threads) {
+py::list save(const Mapped& mapped, const FilePath& path, const std::string& holes, int threads) {
   const FillersInFile fillers = fillers_named(holes);
-  return writing_call(py::none(), [=, mesh = mapped.mesh()](const Progress&) {
+  return as_texts(writing_call(py::none(), [=, mesh = mapped.mesh()](const Progress&) {
     PendingFiles files;
     std::vector<std::string> losses = add_mapped(files, path, mesh, threads, {}, fillers);
     files.publish();
     return losses;
-  });
+  }));
 }
 
-void save_sphere_file(const Mapped& mapped, const std::string& path, int threads) {
+void save_sphere_file(const Mapped& mapped, const FilePath& path, int threads) {
   writing_call(py::none(), [mesh = mapped.mesh(), path, threads](const Progress& report) {
     return save_sphere(path, mesh, {.threads = threads, .progress = report});
   });
 }
 
-/// Of a sphere seen from inside that of its mirror image, as of files (verify_map.h).
-Certificate certify_either_way(MeshSource& source, const SphereMap& map, int threads) {
-  Triangles triangles = source.file.mesh.triangles;
-  const auto vertices = static_cast<int>(source.file.mesh.vertex_count());
-  const auto built = Topology::try_build(triangles, vertices);
-  if (!built) return certify(topology_of(source), map, threads);  // throws, and says what helps
-  Certificate certificate = certify(*built, map, threads);
-  if (!certificate.reversed) return certificate;
-  triangles.col(1).swap(triangles.col(2));
-  certificate = certify(Topology::try_build(triangles, vertices).value(), map, threads);
-  certificate.reversed = true;
-  return certificate;
-}
-
 py::dict certify_points(const Source& source, const py::array& rays, int threads) {
   bool finite = true;
-  const auto map = std::make_shared<const SphereMap>(SphereMap{points_of(rays, finite)});
+  const auto map = std::make_shared<SphereMap>(SphereMap{points_of(rays, finite)});
   const auto mesh = std::make_shared<MeshSource>(source.mesh);
-  return as_dict(
-      call(py::none(), [=](const Progress&) { return certify_either_way(*mesh, *map, threads); }));
-}
-
-/// Headers of files may be in any encoding.
-py::list as_list(const std::vector<std::string>& lines) {
-  py::list list;
-  for (const std::string& line : lines) {
-    PyObject* const text =
-        PyUnicode_DecodeUTF8(line.data(), static_cast<Py_ssize_t>(line.size()), "replace");
-    if (!text) throw py::error_already_set();
-    list.append(py::reinterpret_steal<py::object>(text));
-  }
-  return list;
+  return as_dict(call(py::none(), [=](const Progress&) {
+    try {
+      return certify_either_way(mesh->file.mesh, *map, threads);
+    } catch (const MeshError&) {
+      return certify(topology_of(*mesh), *map, threads);  // throws, and says what helps
+    }
+  }));
 }
 
 /// Who reads theta and phi that are not those of the rays has another map: it does not hold then.
-py::dict verify_file(const std::string& path, const std::string& sphere, int threads) {
+py::dict verify_file(const FilePath& path, const FilePath& sphere, int threads) {
   const VerifiedMap found = call(py::none(), [=](const Progress&) {
     return verify_map(path, {.sphere = sphere, .threads = threads});
   });
@@ -218,7 +198,7 @@ py::dict verify_file(const std::string& path, const std::string& sphere, int thr
     dict["one_to_one"] = false;
     dict["verdict"] = "theta and phi off " + std::to_string(found.angles->off);
   }
-  dict["warnings"] = as_list(warnings_of(found));
+  dict["warnings"] = as_texts(warnings_of(found));
   return dict;
 }
 
