@@ -189,6 +189,53 @@ TEST_CASE("outputs: the texture that a glTF file names is read too, and not repl
   CHECK(bytes_of(texture) == before);
 }
 
+TEST_CASE("outputs: a survey replaces no mesh of its folder") {
+  const Folder folder;
+  fs::create_directories(folder / "scans/deep");
+  const std::string mesh = folder / "scans/deep/a.obj", page = folder / "scans/page.html";
+  write_bytes(mesh, obj_text(icosphere(1)));
+  fs::create_symlink(mesh, folder / "link.json");
+  const std::string before = bytes_of(mesh);
+  for (const std::string& json :
+       {mesh, folder / "scans/../scans/deep/a.obj", folder / "link.json"}) {
+    const Ended ended =
+        sphparam_program({"survey", folder / "scans", "-o", page, "--size", "0", "--json", json});
+    INFO(json << ": " << ended.err);
+    CHECK(ended.code == 2);
+    CHECK_THAT(ended.err, Contains("would be replaced"));
+    CHECK(bytes_of(mesh) == before);
+    CHECK_FALSE(fs::exists(page));
+  }
+  CHECK(sphparam_program({"survey", folder / "scans", "-o", page, "--size", "0"}).code == 0);
+}
+
+TEST_CASE("outputs: what a batch tells of itself replaces none of its own files") {
+  const Folder folder;
+  const std::string mesh = folder / "a.obj", work = folder / "work";
+  write_bytes(mesh, obj_text(icosphere(1)));
+  REQUIRE(sphparam_program({"batch", "plan", mesh, "-o", work, "--", "map"}).code == 0);
+  REQUIRE(sphparam_program({"batch", "run", work}).code == 0);
+  std::string manifest;
+  for (const auto& entry : fs::directory_iterator(work))
+    if (entry.path().extension() == ".tsv") manifest = entry.path().filename();
+  const Words own = {"plan",       manifest,         "Snakefile", "results/a/a.sph.ply",
+                     "failed/new", "results/new.csv"};
+  for (const std::string& name : own) {
+    for (const Words& words : {Words{"table", "-o"}, {"report", "-o"}, {"status", "--json"}}) {
+      const std::string output = work + "/" + name;
+      const std::string before = bytes_of(output);
+      const Ended ended = sphparam_program({"batch", words[0], work, words[1], output});
+      INFO(words[0] << " " << name << ": " << ended.err);
+      CHECK(ended.code == 2);
+      CHECK_THAT(ended.err, Contains(words[1] + ": " + output + " is a file of the batch itself"));
+      CHECK(bytes_of(output) == before);
+    }
+  }
+  CHECK(sphparam_program({"batch", "table", work, "-o", work + "/all.csv"}).code == 0);
+  CHECK(sphparam_program({"batch", "report", work, "-o", work + "/all.html"}).code == 0);
+  CHECK(sphparam_program({"batch", "status", work, "--json", work + "/status.json"}).code == 0);
+}
+
 TEST_CASE("outputs: libraries of materials and buffers are read too, and not replaced") {
   const Mapped mapped(100);
   const Folder& folder = mapped.folder;

@@ -57,6 +57,27 @@ struct ResultArguments : CommonArguments {
   Words ids;
 };
 
+/// Runs, and pages to come, go by these: what replaced one would be the end of the batch.
+void require_not_of_batch(const std::string& option, const std::string& folder,
+                          const std::string& output) {
+  static const Words folders = {"results", "failed", "staging", "logs", "pictures"},
+                     files = {"plan", "array.sbatch", "Snakefile"};
+  namespace fs = std::filesystem;
+  if (output.empty() || is_stream(output)) return;
+  std::error_code hidden;
+  const fs::path place = fs::weakly_canonical(fs::absolute(output, hidden), hidden)
+                             .lexically_relative(fs::canonical(folder, hidden));
+  const std::string first = place.empty() ? "" : place.begin()->string();
+  const bool is_inside = std::ranges::count(folders, first) > 0 && place != first;
+  const bool is_own = std::ranges::count(files, first) > 0 ||
+                      (first.starts_with("plan-") && first.ends_with(".tsv"));
+  if (is_inside || (is_own && place == first))
+    throw UsageMistake(
+        option + ": " + output + " is a file of the batch itself; another name, as " +
+        (fs::path(folder) / ("all" + fs::path(output).extension().string())).string() +
+        ", leaves it whole");
+}
+
 /// "1,137"
 bool add_codes(const std::string& text, std::vector<int>& codes) {
   for (const std::string& word : split(text)) {
@@ -69,6 +90,7 @@ bool add_codes(const std::string& text, std::vector<int>& codes) {
 
 int run_status(ResultArguments& arguments) {
   Session session(arguments);
+  require_not_of_batch("--json", arguments.folder, arguments.json);
   require_report_place(arguments.json);
   const BatchPlan plan = load_plan(arguments.folder, arguments.plan);
   const BatchStatus status = batch_status(arguments.folder, plan, arguments.threads);
@@ -110,6 +132,7 @@ char separator_of(const std::string& path) {
 int run_table(ResultArguments& arguments) {
   const char separator = separator_of(arguments.output);
   Session session(arguments);
+  require_not_of_batch("-o", arguments.folder, arguments.output);
   check_places({{"-o", arguments.output}});
   const BatchPlan plan = load_plan(arguments.folder, arguments.plan);
   session.files.add(arguments.output,
@@ -122,6 +145,7 @@ int run_table(ResultArguments& arguments) {
 
 int run_report(ResultArguments& arguments) {
   Session session(arguments);
+  require_not_of_batch("-o", arguments.folder, arguments.output);
   check_places({{"-o", arguments.output}});
   const BatchPlan plan = load_plan(arguments.folder, arguments.plan);
   const std::string page_folder =

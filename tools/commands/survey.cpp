@@ -2,10 +2,13 @@
 
 #include "sphparam/survey/survey.h"
 
+#include <filesystem>
+
 #include "arguments/limits.h"
 #include "commands/command.h"
 #include "console/places.h"
 #include "sphparam/batch/run.h"
+#include "survey/mesh_files.h"
 
 namespace sphparam::cli {
 
@@ -35,6 +38,9 @@ void require_sensible(const SurveyArguments& arguments) {
     throw UsageMistake("-o: a page is written as .html, not as " + output_name(arguments.output));
   if (arguments.size > 0 && arguments.size < 16)
     throw UsageMistake("--size: 0, or 16 to 4096 pixels");
+  std::vector<std::string> meshes = mesh_files(arguments.folder);
+  for (std::string& mesh : meshes) mesh = (std::filesystem::path(arguments.folder) / mesh).string();
+  note_files_read(meshes);
   check_places({{"-o", arguments.output}, {"--json", arguments.json}});
 }
 

@@ -136,6 +136,11 @@ void note_files_read(const CLI::App& command) {
   }
 }
 
+void note_files_read(const std::vector<std::string>& files) {
+  noted_files().insert(noted_files().end(), files.begin(), files.end());
+  keep_from_outputs(files);
+}
+
 bool is_same_place(const std::string& one, const std::string& other) {
   if (one.empty() || other.empty()) return false;
   if (is_stream(one) || is_stream(other)) return one == other;

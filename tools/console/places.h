@@ -24,6 +24,9 @@ void mark_written(const CLI::Option& option);
 /// through symbolic and hard links.
 void note_files_read(const CLI::App& command);
 
+/// Notes files that no option names, as those of a folder: `check_places` asks for them after it.
+void note_files_read(const std::vector<std::string>& files);
+
 /// Notes nothing: just names them, as they stand on the command line.
 std::vector<std::string> files_read(const CLI::App& command);
 
