@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "program.h"
+#include "sphparam/io/mesh_reader.h"
 #include "sphparam/mesh/mesh_defects.h"
 #include "support/joined.h"
 #include "support/shaken.h"
@@ -132,6 +133,28 @@ TEST_CASE("repair: of several components all ways are told, and each that is typ
             .code == 0);
 }
 
+TEST_CASE("repair: rings stay rings beside others, and each way that is told works") {
+  const Folder folder;
+  const std::string mesh = folder / "rings.obj", map = folder / "m.sph.ply";
+  const TriangleMesh ring = bumped_torus(12, 24, 0.3, 0.01, 1);
+  write_bytes(mesh, obj_text(joined(ring, ring, {9, 0, 0})));
+  const std::string kept = folder / "kept.obj";
+  const std::vector<std::vector<std::string>> commands = {
+      {"repair", mesh, "-o", kept, "--repair"},
+      {"map", mesh, "-o", map},
+      {"map", mesh, "-o", map, "--repair"},
+      {"map", mesh, "-o", map, "--repair", "--all-components"}};
+  for (const std::vector<std::string>& command : commands) {
+    const Ended ended = sphparam_program(command);
+    INFO(ended.err);
+    CHECK(ended.code == 4);
+    CHECK_THAT(ended.err, Contains("--max-handle"));
+    if (command.front() == "repair")
+      CHECK(read_mesh(kept).mesh.face_count() == 2 * ring.face_count());
+    CHECK(type_advice(ended.err, folder / ".") >= 1);
+  }
+}
+
 TEST_CASE("repair: pieces that small errors keep apart are sent to --weld, which mends them") {
   const Folder folder;
   const std::string mesh = folder / "soup.obj", map = folder / "m.sph.ply";
@@ -145,6 +168,27 @@ TEST_CASE("repair: pieces that small errors keep apart are sent to --weld, which
   const Json repair = Json::parse(told.out)["repair"];
   CHECK(repair["mends"] == false);
   CHECK_THAT(repair["mends_with"].get<std::string>(), Contains("--repair --weld 0.0"));
+}
+
+TEST_CASE(
+    "repair: what rounding tears is sent to --weld, also where --repair is enough or was done") {
+  const Folder folder;
+  const std::string mesh = folder / "torn.obj", map = folder / "m.sph.ply";
+  for (const double share : {0.005, 0.1}) {
+    INFO(share);
+    write_bytes(mesh, obj_text(torn_by_rounding(icosphere(4), share)));
+    const Ended refused = sphparam_program({"map", mesh, "-o", map});
+    INFO(refused.err);
+    CHECK(refused.code == 4);
+    CHECK_THAT(refused.err, Contains("  --repair --weld ") && !Contains("--component"));
+    CHECK(type_advice(refused.err, folder / ".") >= 1);
+    const Ended repair = sphparam_program({"repair", mesh, "-o", folder / "r.obj", "--repair"});
+    INFO(repair.err);
+    CHECK_THAT(repair.err,
+               Contains("  --repair --weld ") && Contains("drops 0 % of the area, not"));
+    CHECK_THAT(repair.err, !Contains("--component"));
+    if (share < 0.05) CHECK(repair.code == 0);
+  }
 }
 
 TEST_CASE("repair: what is one-sided is sent to wrap, which takes it") {
@@ -424,14 +468,28 @@ TEST_CASE("repair: faces that name a vertex twice go with duplicates, and are re
     if (*repair) arguments.emplace_back(repair);
     const Ended refused = sphparam_program(arguments, faulty);
     CHECK(refused.code == 3);
-    CHECK_THAT(refused.err, Contains(":123: face names a vertex twice; `sphparam map "
-                                     "--repair=duplicates` removes such faces"));
+    CHECK_THAT(refused.err,
+               Contains(":123: face names a vertex twice; `sphparam map - --repair=duplicates "
+                        "-o mended.sph.ply` removes such faces"));
   }
   const Ended asked = sphparam_program({"info", "-"}, faulty);
   CHECK(asked.code == 3);
-  CHECK_THAT(asked.err, Contains("`sphparam map --repair=duplicates` removes such faces"));
+  CHECK_THAT(asked.err, Contains("--repair=duplicates -o mended.sph.ply` removes such faces"));
   const Folder folder;
-  const std::string map = folder / "map.ply";
+  const std::string map = folder / "map.ply", file = folder / "a b.obj";
+  std::string placeless = obj_text(icosphere(1));
+  placeless.insert(placeless.find('f'), "v nan 0 0\n");
+  for (const std::string& bytes : {faulty, placeless}) {
+    write_bytes(file, bytes);
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"map", file, "-o", map}, {"info", file}}) {
+      const Ended told = sphparam_program(words);
+      CHECK(told.code == 3);
+      const size_t from = told.err.find("`sphparam map '" + file + "' --repair");
+      REQUIRE(from != std::string::npos);
+      CHECK(type_advice(told.err.substr(0, told.err.find('`', from + 1) + 1), folder / ".") == 1);
+    }
+  }
   for (const char* repair : {"--repair", "--repair=duplicates"}) {
     const Ended mended = sphparam_program({"map", "-", "-o", map, "--json", "-", repair}, faulty);
     INFO(mended.err);

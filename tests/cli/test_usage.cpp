@@ -101,6 +101,15 @@ TEST_CASE("program: command lines that make no sense end with code 2 and touch n
   }
 }
 
+TEST_CASE("program: behind a double dash are files, and what is missing before it is said") {
+  const Ended missing = sphparam_program({"remesh", "-o", "z.sph.ply", "--", "-p.stl"});
+  CHECK(missing.code == 2);
+  CHECK_THAT(missing.err, Contains("--grid") && !Contains("unknown option"));
+  const Ended stray = sphparam_program({"wrap", "-o", "y.ply", "--", "-p.stl", "--json"});
+  CHECK(stray.code == 2);
+  CHECK_THAT(stray.err, Contains("unexpected argument --json"));
+}
+
 TEST_CASE("program: options that all subcommands have may stand before them") {
   const std::string ball = obj_text(icosphere(1));
   const Ended quiet = sphparam_program({"-q", "--threads", "1", "map", "-", "-o", "-"}, ball);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "io/shell_word.h"
+#include "sphparam/io/paths.h"
 #include "sphparam/io/repair_advice.h"
 #include "sphparam/names.h"
 
@@ -75,6 +76,19 @@ std::string advice_for(const Words& words, const MeshRefusal& refusal) {
   if (has(rest, "--all-components")) return advice_for_component(words, rest, refusal);
   if (!refusal.trial()) return repair_advice(refusal);
   return repair_advice(refusal, typed(rest, options_line(refusal.trial()->options)));
+}
+
+std::string told_refusal(const Words& words, const std::string& refusal) {
+  const std::string map = "`sphparam map ";
+  const size_t at = refusal.find(map + "--repair");
+  const auto is_refused = [&](const std::string& word) {
+    return refusal.starts_with(word + ":") || refusal.starts_with(display_name(word) + ":");
+  };
+  const auto file = std::ranges::find_if(words, is_refused);
+  if (at == std::string::npos || file == words.end()) return refusal;
+  std::string told = refusal;
+  told.insert(told.find('`', at + 1), " -o mended.sph.ply");
+  return told.insert(at + map.size(), shell_file(*file) + " ");
 }
 
 }  // namespace sphparam::cli

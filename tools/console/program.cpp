@@ -168,8 +168,13 @@ std::string explain(const CLI::App& program, const CLI::ParseError& error) {
   const auto kind = static_cast<CLI::ExitCodes>(error.get_exit_code());
   const bool nothing_else =
       kind == CLI::ExitCodes::ExtrasError || kind == CLI::ExitCodes::RequiredError;
+  bool are_files = false;  // what stands behind --
   for (const std::string& word : app.remaining()) {
-    const bool is_option = word.size() > 1 && word.front() == '-';
+    if (!are_files && word == "--") {
+      are_files = true;
+      continue;
+    }
+    const bool is_option = !are_files && word.size() > 1 && word.front() == '-';
     if (is_option) {
       const std::string name = word.substr(0, word.find('='));
       const std::string now = present_spelling(app.get_name(), name);
@@ -351,7 +356,8 @@ int guarded_main(int argc, char** argv, int no_room) {
   } catch (const NotCertifiedError& error) {
     return told(error, NotCertified);
   } catch (const ReadError& error) {
-    return told(error, FileError);
+    print_error(told_refusal({argv + 1, argv + argc}, error.what()));
+    return FileError;
   } catch (const ImageError& error) {
     return told(error, FileError);
   } catch (const NoRoomError& error) {
