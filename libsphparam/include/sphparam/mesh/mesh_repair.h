@@ -52,8 +52,8 @@ struct RepairOptions {
   /// at vertices that lie so near (with `cracks`); in diagonals of the bounding box, or a length of
   /// the mesh instead where `weld_length` is not negative.
   double weld_share = -1, weld_length = -1;
-  /// The longest loop that a handle may be cut along, in diagonals of the bounding box; a length of
-  /// the mesh instead where `longest_handle_length` is more than 0.
+  /// The longest loop that a handle may be cut along, in diagonals of the bounding box of the part
+  /// that it is in; a length of the mesh instead where `longest_handle_length` is more than 0.
   double longest_handle = 0.35;
   double longest_handle_length = 0;
   /// Ends where no component is large enough (`parts.refused`): whatever follows, several stay.
@@ -147,7 +147,7 @@ struct KeptParts {
 struct HandleLoop {
   bool filled = false;    // its caps go through air; else through what the surface encloses
   double length = 0;      // in units of the mesh
-  double share = 0;       // the same in diagonals of the bounding box
+  double share = 0;       // the same in diagonals of the box about its part
   double area_added = 0;  // of both caps
   long crossings = 0;     // pairs of triangles, of a cap and of the surface, that cross
   Vector3 centre = Vector3::Zero();  // mean of its points
@@ -168,8 +168,8 @@ struct RepairedMesh {
   KeptParts parts;
   std::vector<HandleLoop> handles;  // one for each that is gone, in the order of the cuts
   long largest_hole_left = 0;  // edges of the largest hole that the limit alone kept open; or 0
-  /// The shortest loop that the limit kept from being cut, in diagonals of the box; or 0. What
-  /// comes after it may be longer.
+  /// The shortest loop that the limit kept from being cut, in diagonals of the box about its part;
+  /// or 0. What comes after it may be longer.
   double shortest_handle_left = 0;
   MeshInspection inspection;  // of `mesh`; `is_sphere()` tells whether it can be mapped
 };
