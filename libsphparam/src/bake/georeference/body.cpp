@@ -9,6 +9,8 @@
 #include <string_view>
 #include <utility>
 
+#include "number_text.h"
+
 namespace sphparam {
 namespace {
 
@@ -63,6 +65,11 @@ Body with_radii(const std::vector<double>& radii, const std::string& text, doubl
 
 // --- WKT
 
+bool is_projected(std::string_view text) {
+  return text.starts_with("PROJCRS[") || text.starts_with("PROJCS[") ||
+         text.starts_with("PROJECTEDCRS[");
+}
+
 bool is_wkt(std::string_view text) {
   return text.starts_with("GEOGCRS[") || text.starts_with("GEODCRS[") ||
          text.starts_with("GEOGCS[");
@@ -99,6 +106,41 @@ bool brackets_match(std::string_view wkt) {
          std::ranges::count(wkt, '"') % 2 == 0;
 }
 
+/// The body that the WKT's first code of the IAU is about, whose systems have codes from its own
+/// on.
+const IauBody* iau_body_of(std::string_view wkt) {
+  constexpr long systems = 100;
+  const size_t place = wkt.find("ID[\"IAU\",");
+  const size_t older = wkt.find("AUTHORITY[\"IAU");  // AUTHORITY["IAU","49901"], ["IAU_2015","…"]
+  if (place == std::string_view::npos && older == std::string_view::npos) return nullptr;
+  std::string_view code = wkt.substr(std::min(place, older));
+  code.remove_prefix(std::min(code.find(','), code.size()));
+  code.remove_prefix(std::min(code.find_first_of("0123456789"), code.size()));
+  const auto number = leading_number(code);
+  const long base = number ? static_cast<long>(number->first) / systems * systems : 0;
+  const auto found = std::ranges::find(iau_bodies(), base, &IauBody::code);
+  return found == iau_bodies().end() ? nullptr : &*found;
+}
+
+/// What to type instead of a system whose latitudes a map has not.
+std::string advice_for(std::string_view wkt) {
+  const IauBody* const body = iau_body_of(wkt);
+  if (!body) return "a geographic one on a sphere is needed, or a radius";
+  return "a geographic one on a sphere is needed, as IAU_2015:" + std::to_string(body->code) +
+         ", which is what the name " + lower(body->name) + " stands for";
+}
+
+/// Rows of maps are planetocentric; GEODCRS with spherical coordinates is so on ellipsoids too.
+void require_planetocentric(const Body& body) {
+  const Vector3 axes = body.semi_axes / body.unit;
+  if (axes.x() == axes.z() || body.wkt.find("CS[spherical") != std::string::npos) return;
+  throw BodyError("the WKT " + body.name +
+                  " has planetographic latitudes, of its flattened ellipsoid, and those of maps "
+                  "are planetocentric: " +
+                  advice_for(body.wkt) + "; for heights above the ellipsoid, its semi-axes: " +
+                  shortest(axes.x()) + "," + shortest(axes.y()) + "," + shortest(axes.z()));
+}
+
 Body of_wkt(const std::string& text, double unit) {
   const auto ellipsoid = ellipsoid_of(text);
   const size_t open = text.find('"'), close = text.find('"', open + 1);
@@ -110,11 +152,13 @@ Body of_wkt(const std::string& text, double unit) {
   const double minor = inverse == 0 ? major : major * (1 - 1 / inverse);
   require_length(minor, "the WKT's ellipsoid");
   const std::string axes = lower(text);
-  return {.name = text.substr(open + 1, close - open - 1),
-          .semi_axes = Vector3(major, major, minor),
-          .wkt = text,
-          .unit = unit,
-          .positive_west = axes.find(",west") != std::string::npos};
+  Body body = {.name = text.substr(open + 1, close - open - 1),
+               .semi_axes = Vector3(major, major, minor),
+               .wkt = text,
+               .unit = unit,
+               .positive_west = axes.find(",west") != std::string::npos};
+  require_planetocentric(body);
+  return body;
 }
 
 }  // namespace
@@ -123,6 +167,8 @@ Body body_of(const std::string& spaced_text, double unit) {
   require_length(unit, "the unit of the mesh");
   const std::string text = trimmed(spaced_text);
   if (is_wkt(text)) return of_wkt(text, unit);
+  if (is_projected(text))
+    throw BodyError("the WKT is of a projected system, in metres: " + advice_for(text));
   if (const auto radii = numbers_of(text)) return with_radii(*radii, text, unit);
   std::vector<std::string> known;
   for (const IauBody& body : iau_bodies()) {
