@@ -283,11 +283,16 @@ TEST_CASE("body_of: names, radii and WKT, and what is none of them") {
   CHECK(body_of(" vesta\n").name == "Vesta");
   CHECK(body_of(" 3,2,1 ").semi_axes == Vector3(3, 2, 1));
   const Body old = body_of(
-      "GEOGCS[\"Mars\",DATUM[\"Mars\",SPHEROID[\"Mars\",3396190,169.894447223612]],"
+      "GEOGCS[\"Mars\",DATUM[\"Mars\",SPHEROID[\"Mars\",3396190,0]],"
       "PRIMEM[\"Airy-0\",0],UNIT[\"degree\",0.0174532925199433]]");
   CHECK(old.name == "Mars");
-  CHECK(old.semi_axes.z() == Approx(3376200).epsilon(1e-9));
   CHECK_FALSE(old.positive_west);
+  const Body flattened = body_of(
+      "GEODCRS[\"Mars (2015) / "
+      "Ocentric\",DATUM[\"Mars\",ELLIPSOID[\"Mars\",3396190,169.894447223612,"
+      "LENGTHUNIT[\"metre\",1]]],CS[spherical,2],AXIS[\"planetocentric latitude (U)\",north],"
+      "AXIS[\"planetocentric longitude (V)\",east],ID[\"IAU\",49902,2015]]");
+  CHECK(flattened.semi_axes.z() == Approx(3376200).epsilon(1e-9));
   for (const char* text :
        {"vespa", "", "-3", "0", "1,2", "1,2,3,4", "1,,2", "nan", "3,2,inf", "GEOGCRS[\"x\"]",
         "GEOGCRS[\"x\",ELLIPSOID[\"x\",1,0]", "PROJCRS[]", "GEOGCRS[\",5,0,\",ELLIPSOID[]]"}) {
@@ -295,6 +300,31 @@ TEST_CASE("body_of: names, radii and WKT, and what is none of them") {
     CHECK_THROWS_AS(body_of(text), BodyError);
   }
   CHECK_THROWS_AS(body_of("vesta", 0), BodyError);
+}
+
+TEST_CASE("body_of: WKT whose latitudes maps have not is refused, with what to give instead") {
+  const std::string datum =
+      "DATUM[\"Mars (2015)\",ELLIPSOID[\"Mars (2015)\",3396190,169.894447223612]],";
+  const auto axes = [](const char* east) {
+    return std::string(
+               "CS[ellipsoidal,2],AXIS[\"geodetic latitude (Lat)\",north],AXIS[\"geodetic "
+               "longitude (Lon)\",") +
+           east + "]";
+  };
+  const std::string ographic = "GEOGCRS[\"Mars (2015) / Ographic\"," + datum + axes("west");
+  CHECK_THROWS_WITH(body_of(ographic + ",ID[\"IAU\",49901,2015]]", 1000),
+                    Contains("Mars (2015) / Ographic has planetographic latitudes") &&
+                        Contains("IAU_2015:49900, which is what the name mars stands for") &&
+                        Contains("3396.19,3396.19,3376.2"));
+  CHECK_THROWS_WITH(body_of(ographic + "]"), Contains("a geographic one on a sphere is needed"));
+  CHECK_THROWS_WITH(body_of("GEOGCS[\"Mars\",DATUM[\"Mars\",SPHEROID[\"Mars\",3396190,169.9]],"
+                            "AUTHORITY[\"IAU\",\"49901\"]]"),
+                    Contains("the name mars"));
+  CHECK_THROWS_WITH(
+      body_of("PROJCRS[\"Eros (2015) - Sphere / Ocentric / Equirectangular\",BASEGEOGCRS[\"Eros\","
+              "DATUM[\"Eros\",ELLIPSOID[\"Eros\",17000,0]],ID[\"IAU\",200043300,2015]],"
+              "CONVERSION[\"Equirectangular\"],CS[Cartesian,2],ID[\"IAU\",200043310,2015]]"),
+      Contains("is of a projected system, in metres") && Contains("the name eros"));
 }
 
 TEST_CASE("sidecars: coordinates, scale, offset and unit beside each image, or no file at all") {
@@ -324,6 +354,36 @@ TEST_CASE("sidecars: coordinates, scale, offset and unit beside each image, or n
   CHECK_THAT(normal, Contains("<PAMRasterBand band=\"3\">"));
 }
 
+TEST_CASE("sidecars: lengths and curvatures have units, what covers kept holes is no data") {
+  const Folder folder;
+  BakeSettings settings;
+  settings.width = 64;
+  settings.convention = Convention::Gis;
+  settings.fields.body = body_of("Vesta", 1000);
+  MeshFile file;
+  file.mesh = star_shaped(0, 4);
+  file.mesh.positions *= 255;
+  FillerMarks fillers(static_cast<std::size_t>(file.mesh.face_count()), 0);
+  std::fill_n(fillers.begin(), 40, 1);
+  mark_fillers(file, fillers);
+  SphereMap map{file.mesh.positions.rowwise().normalized()};
+  bake(MappedMesh({.file = std::move(file), .map = std::move(map), .name = "holed"}),
+       {{"radius", folder / "r.tif"},
+        {"thickness", folder / "t.tif"},
+        {"curvature", folder / "c.tif"},
+        {"curvature:gauss", folder / "g.tif"}},
+       settings);
+  CHECK(element(text_of(folder / "t.tif.aux.xml"), "UnitType") == "km");
+  CHECK(element(text_of(folder / "c.tif.aux.xml"), "UnitType") == "1/km");
+  CHECK(element(text_of(folder / "g.tif.aux.xml"), "UnitType") == "1/km^2");
+  const std::string radius = text_of(folder / "r.tif.aux.xml");
+  CHECK(element(radius, "Description") == "radius");
+  const std::string cover = radius.substr(radius.find("band=\"2\""));
+  CHECK(element(cover, "Description") == "surface");
+  CHECK(element(cover, "ColorInterp") == "Alpha");
+  CHECK_THAT(cover, !Contains("UnitType") && !Contains("Scale"));
+}
+
 TEST_CASE("sidecars: longitudes are called planetocentric only where they are") {
   const Folder folder;
   BakeSettings settings;
@@ -350,6 +410,59 @@ TEST_CASE("sidecars: longitudes are called planetocentric only where they are") 
   CHECK(system(mapped_radially(mesh)) == "Eros (2015) - Sphere / Ocentric, positive west");
   CHECK(element(text_of(folder / "r.tif.aux.xml"), "GeoTransform") ==
         "180, -5.625, 0, 90, 0, -5.625");
+}
+
+TEST_CASE("sidecars: what a header says of longitudes counts where it is so, as measured") {
+  const Folder folder;
+  BakeSettings settings;
+  settings.width = 64;
+  settings.convention = Convention::Gis;
+  settings.interpolation = Interpolation::Sphere;
+  settings.fields.body = body_of("Eros", 1000);
+  TriangleMesh mesh = star_shaped(0, 3);
+  mesh.positions *= 17;
+  const SphereMap map = radial_directions(mesh);
+  const auto system = [&](const Points& positions, Provenance lines, const char* up = "") {
+    MeshFile file;
+    file.mesh = {positions, mesh.triangles};
+    if (*up) file.comments = {std::string("up axis ") + up};
+    lines.insert(lines.begin(), {{"radial-centre", "0 0 0"}, {"radial-movement", "0"}});
+    return bake(MappedMesh({.file = file, .map = map, .provenance = lines}),
+                {{"lon", folder / "l.tif"}}, settings)
+        .coordinate_system;
+  };
+  const std::string ocentric = "Eros (2015) - Sphere / Ocentric", own = "sphparam map of Eros";
+  const Points& x = mesh.positions;
+  CHECK(system(x, {}) == ocentric);
+  CHECK(system(x.cast<float>().cast<double>(), {}) == ocentric);
+  CHECK(system(x.rowwise() + Eigen::RowVector3d(0.1, 0, 0), {}) == own);
+  CHECK(system(x * Eigen::AngleAxisd(0.1, Vector3::UnitX()).toRotationMatrix(), {}) == own);
+  CHECK(system(x, {{"anew", "nothing of the method's own map is left"}}) == own);
+  // As glTF has it, y up: the body's north is where the file says.
+  Eigen::Matrix3d upright;
+  upright << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+  const Points turned = x * upright.transpose();
+  CHECK(system(turned, {}, "y") == ocentric);
+  CHECK(system(turned, {}) == own);
+  CHECK(system(x, {}, "y") == own);
+}
+
+TEST_CASE("lon, lat: north is what the file says points up") {
+  const TriangleMesh mesh = star_shaped(0, 3);
+  Eigen::Matrix3d upright;
+  upright << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+  MeshFile file;
+  file.mesh = {mesh.positions * upright.transpose(), mesh.triangles};
+  file.comments = {"up axis y"};
+  const Provenance lines = {{"radial-centre", "0 0 0"}, {"radial-movement", "0"}};
+  const MappedMesh as_gltf({.file = file, .map = radial_directions(mesh), .provenance = lines});
+  for (const char* field : {"lon", "lat", "slope", "radius"}) {
+    INFO(field);
+    const Baked here = baked(as_gltf, field), there = baked(mapped_radially(mesh), field);
+    REQUIRE(here.values.size() == there.values.size());
+    for (size_t i = 0; i < here.values.size(); ++i)
+      if (std::abs(here.values[i] - there.values[i]) > 1e-3F) FAIL(i);
+  }
 }
 
 TEST_CASE("sidecars: a map that is radial about another centre has not the body's longitudes") {

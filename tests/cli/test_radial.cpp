@@ -187,4 +187,78 @@ TEST_CASE("bake: a radial map about another centre than --centre is told, with h
                             Contains("longitude and latitude: sphparam map of Eros"));
 }
 
+TEST_CASE("map: a radial map of what glTF has turned has the body's north, as bake names it") {
+  const Folder folder;
+  write_bytes(folder / "body.obj", body());
+  const std::string glb = folder / "body.glb", map = folder / "a.sph.ply";
+  REQUIRE(sphparam_program({"export", folder / "body.obj", "-o", glb}).code == 0);
+  const Ended ended = sphparam_program({"map", glb, "-o", map, "--method", "radial"});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.err, Contains("y points up in the file: it is north"));
+  const auto baked = [&](const std::string& of) {
+    const Ended bake = sphparam_program({"bake", of, "--body", "1", "--map", "radius", "--depth",
+                                         "float", "--size", "32", "-o", folder / "a.tif"});
+    CHECK_THAT(bake.err, Contains("- Sphere / Ocentric") && !Contains("from those of the body"));
+    return bytes_of(folder / "a.tif");
+  };
+  baked(map);
+  const auto shape = [&](const std::string& of) {
+    const Ended shadr = sphparam_program({"spharm", of, "--degree", "2", "--shadr", "-"});
+    CHECK_THAT(shadr.err, !Contains("warning"));
+    return shadr.out;
+  };
+  // The same from the mesh as it was, and from the file with y up and nothing that says so.
+  REQUIRE(sphparam_program(
+              {"map", folder / "body.obj", "-o", folder / "b.sph.ply", "--method", "radial"})
+              .code == 0);
+  const std::string first = shape(map).substr(0, 24), plain = shape(folder / "b.sph.ply");
+  CHECK(std::stod(first) == Approx(std::stod(plain.substr(0, 24))).epsilon(1e-3));
+  REQUIRE(sphparam_program({"map", folder / "body.obj", "-o", folder / "y.sph.ply", "--method",
+                            "radial", "--up", "y"})
+              .code == 0);
+  CHECK_THAT(bytes_of(folder / "y.sph.ply").substr(0, 400), Contains("up axis y"));
+  baked(folder / "y.sph.ply");
+}
+
+TEST_CASE("map: a mesh that is inside out is told what turns it") {
+  const Folder folder;
+  TriangleMesh mesh = icosphere(2);
+  mesh.triangles.col(1).swap(mesh.triangles.col(2));
+  const std::string map = folder / "a.sph.ply";
+  const Ended ended =
+      sphparam_program({"map", "-", "-o", map, "--method", "radial"}, obj_text(mesh));
+  CHECK_THAT(ended.err, Contains("the faces point inwards: --repair=orientation turns them"));
+  const Ended bake = sphparam_program(
+      {"bake", map, "--body", "Eros", "--map", "lon", "--size", "32", "-o", folder / "a.tif"});
+  CHECK_THAT(bake.err, Contains("it was made anew") &&
+                           Contains("longitude and latitude: sphparam map of Eros"));
+  const Ended turned = sphparam_program(
+      {"map", "-", "-o", map, "--method", "radial", "--repair=orientation"}, obj_text(mesh));
+  CHECK(turned.code == 0);
+  CHECK_THAT(turned.err, Contains("planetocentric: the surface is star-shaped"));
+}
+
+TEST_CASE("spharm, bake: a header that says radial is measured before it is believed") {
+  const Folder folder;
+  const std::string map = folder / "r.sph.ply", moved = folder / "moved.ply";
+  REQUIRE(sphparam_program({"map", "-", "-o", map, "--method", "radial"}, body()).code == 0);
+  const auto said = [&](const std::string& of, const std::string& centre) {
+    const Ended ended = sphparam_program(
+        {"spharm", of, "--degree", "2", "--centre", centre, "--shadr", folder / "a.sha"});
+    CHECK(ended.code == 0);
+    return ended.err;
+  };
+  CHECK_THAT(said(map, "0,0,0"), !Contains("warning"));
+  CHECK_THAT(said(map, "0.1,0,0"),
+             Contains("the map's, not the body's") && Contains("radial about another centre"));
+  REQUIRE(sphparam_program({"spharm", map, "--degree", "1", "--reconstruct", moved}).code == 0);
+  CHECK_THAT(said(moved, "0,0,0"),
+             Contains("° from those of the body") && Contains("moved since it was made"));
+  const Ended bake = sphparam_program(
+      {"bake", moved, "--body", "Eros", "--map", "lon", "--size", "32", "-o", folder / "a.tif"});
+  CHECK_THAT(bake.err, Contains("moved since it was made") && !Contains("it moved what folds") &&
+                           Contains("longitude and latitude: sphparam map of Eros"));
+}
+
 }  // namespace sphparam::tests

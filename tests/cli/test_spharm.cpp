@@ -49,7 +49,15 @@ TEST_CASE("spharm: an ellipsoid on its affine sphere has its semi-axes and nothi
   const Ended integral =
       sphparam_program({"spharm", folder / "body.obj", "--sphere", folder / "ball.obj", "--degree",
                         "8", "--fit", "quadrature", "--json", "-"});
-  CHECK(Json::parse(integral.out)["position_rms"] > 1e-6);
+  const Json by_integral = Json::parse(integral.out);
+  CHECK(by_integral["position_rms"] > 1e-6);
+  CHECK(by_integral["quadrature"]["change"] <= 1e-4);
+  CHECK(by_integral["quadrature"]["rows"].get<int>() * 2 == by_integral["quadrature"]["columns"]);
+  CHECK_FALSE(report.contains("quadrature"));
+  const Ended told =
+      sphparam_program({"spharm", folder / "body.obj", "--sphere", folder / "ball.obj", "--degree",
+                        "1", "--fit", "quadrature"});
+  CHECK_THAT(told.err, Contains("integral by ") && Contains("the last doubling changed"));
 }
 
 TEST_CASE("spharm: a name in Latin-1 does not spoil the report") {

@@ -211,6 +211,9 @@ def test_a_body_lies_as_it_does():
     assert made.radial.folds == 0 and made.radial.centre == (0, 0, 0)
     unit = vertices / np.linalg.norm(vertices, axis=1, keepdims=True)
     assert np.allclose(made.points, unit, atol=1e-15)
+    upright = sp.map(vertices, faces, method="radial", up="y")  # y is north, z the front
+    x, y, z = made.points.T
+    assert np.allclose(upright.points, np.stack([x, -z, y], 1), atol=1e-15)
     moved = sp.map(vertices + [5, 0, 0], faces, method="radial", centre=(5, 0, 0))
     assert np.allclose(moved.points, unit, atol=1e-12) and moved.radial.centre == (5, 0, 0)
     turned = sp.map(vertices, faces, align="body")

@@ -17,6 +17,7 @@
 #include "sphparam/io/fillers.h"
 #include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/pin_file.h"
+#include "sphparam/io/planetocentric.h"
 #include "sphparam/io/upright_frame.h"
 #include "sphparam/io/written_map.h"
 #include "sphparam/sphere/radial_directions.h"
@@ -71,7 +72,7 @@ void settle_directions(const MapArguments& arguments, const MeshSource& source,
                        ParameterizeOptions& options) try {
   const bool to_body = arguments.align == "body";
   if (to_body || options.method == Method::Radial) {
-    SphereMap directions = radial_directions(source.file.mesh, options.centre);
+    SphereMap directions = body_directions(source.file, options.centre);
     if (to_body) options.align_to = std::move(directions);
   } else if (!arguments.align.empty()) {
     options.align_to =
@@ -98,6 +99,14 @@ void settle_upright(const MapArguments& arguments, MapOutcome& outcome) {
       with_upright_frame(outcome.options, file.mesh, outcome.topology(), axes);
   if (arguments.upright_poles) outcome.options.poles = upright.poles;
   if (arguments.front_meridian) outcome.options.meridian = upright.meridian;
+}
+
+MethodRun run(const MapArguments& arguments, const MapOutcome& outcome) {
+  const MeshFile& file = outcome.source.file;
+  const ParameterizeOptions& options = outcome.options;
+  if (options.method == Method::Radial)
+    return {parameterize_standing(file, outcome.topology(), options)};
+  return run_method(arguments.method, file.mesh, outcome.topology(), options);
 }
 
 /// The map of the mesh that is to be followed; nothing: none is.
@@ -155,9 +164,9 @@ MapOutcome compute(MeshSource source, const MapArguments& arguments, Session& se
   settle_vertices(arguments.pins, outcome.source.file, options);
   settle_upright(arguments, outcome);
   settle_directions(arguments, outcome.source, options);
-  MethodRun run = run_method(arguments.method, mesh, outcome.topology(), options);
-  outcome.result = std::move(run.result);
-  outcome.account = std::move(run.account);
+  MethodRun made = run(arguments, outcome);
+  outcome.result = std::move(made.result);
+  outcome.account = std::move(made.account);
   if (other) follow(*other, outcome, session);
   outcome.frame = check_frame(outcome.result, options);
   if (outcome.has_map() && is_to_stand(arguments))

@@ -98,33 +98,54 @@ bool is_like_body(const MappedMesh& mapped, const SphereMap& directions, int thr
          most_folded * static_cast<double>(mapped.mesh().face_count());
 }
 
+/// What a map is that says that it is radial and has not the longitudes of a body.
+std::string what_it_is(const MappedMesh& mapped, const std::optional<Planetocentric>& radial,
+                       const Vector3& centre) {
+  if (!radial) return "";
+  if (!is_about(*radial, centre, mapped.mesh())) return "it is radial about another centre; ";
+  if (radial->made_anew) return "it was made anew, for too much folds; ";
+  if (is_as_said(*radial, mapped.file(), mapped.map())) return "it moved what folds";
+  return "mesh or map were moved since it was made; ";
+}
+
 /// Why a map's longitudes are not those of a body about this centre, and what would have them.
-std::string why_off(const TriangleMesh& mesh, const std::optional<Planetocentric>& radial,
+std::string why_off(const MappedMesh& mapped, const std::optional<Planetocentric>& radial,
                     const Vector3& centre) {
-  if (radial && is_about(*radial, centre, mesh)) return "it moved what folds";
-  const std::string why = radial ? "it is radial about another centre; " : "";
+  const std::string why = what_it_is(mapped, radial, centre);
+  if (!why.empty() && !why.ends_with("; ")) return why;  // no other has them
   const std::string typed =
       shortest(centre.x()) + "," + shortest(centre.y()) + "," + shortest(centre.z());
-  return why + "`sphparam map` --method radial has the body's, --align body comes near" +
-         (centre.isZero(0) ? "" : ", with --centre " + typed);
+  const std::string what = radial && radial->made_anew
+                               ? "`sphparam map` --align body comes near"
+                               : "`sphparam map` --method radial has the body's, --align body "
+                                 "comes near";
+  return why + what + (centre.isZero(0) ? "" : ", with --centre " + typed);
 }
 
 }  // namespace
 
-void tell_longitudes(const MappedMesh& mapped, Convention convention, bool named_as_body,
-                     const std::optional<Vector3>& given_centre, Session& session) try {
-  if (convention != Convention::Gis) return;
+std::string longitudes_off(const MappedMesh& mapped, const Vector3& centre, bool of_bodies_only,
+                           int threads) try {
   constexpr double degrees = 180 / std::numbers::pi, nothing = 1e-4;
   const std::optional<Planetocentric> radial = planetocentric(mapped.provenance());
-  const Vector3 centre = body_centre(radial, given_centre);
-  const SphereMap directions = radial_directions(mapped.mesh(), centre);
-  if (!named_as_body && !radial && !is_like_body(mapped, directions, session.threads())) return;
-  const double angle = degrees * rms_angle(mapped.map(), directions, vertex_areas(mapped.mesh()));
-  if (!(angle >= nothing)) return;
-  session.console.say("  the map's longitudes and latitudes are " + short_number(angle) +
-                      "° from those of the body (RMS over the surface); " +
-                      why_off(mapped.mesh(), radial, centre));
+  const SphereMap directions = body_directions(mapped.file(), centre);
+  if (of_bodies_only && !radial && !is_like_body(mapped, directions, threads)) return "";
+  const double angle =
+      degrees * rms_angle(mapped.map(), directions,
+                          vertex_areas(surface_of(mapped.mesh(), mapped.fillers())));
+  if (!(angle >= nothing)) return "";
+  return "the map's longitudes and latitudes are " + short_number(angle) +
+         "° from those of the body (RMS over the surface); " + why_off(mapped, radial, centre);
 } catch (const VertexAtCentre&) {  // no body about it
+  return "";
+}
+
+void tell_longitudes(const MappedMesh& mapped, Convention convention, bool named_as_body,
+                     const std::optional<Vector3>& given_centre, Session& session) {
+  if (convention != Convention::Gis) return;
+  const Vector3 centre = body_centre(planetocentric(mapped.provenance()), given_centre);
+  const std::string off = longitudes_off(mapped, centre, !named_as_body, session.threads());
+  if (!off.empty()) session.console.say("  " + off);
 }
 
 std::shared_ptr<const MeshTextures> read_shown_textures(const MeshFile& file,

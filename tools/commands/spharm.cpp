@@ -58,15 +58,14 @@ void require_scalars(const MeshFile& file, const Words& scalars) {
 
 /// What the radius is measured from; nothing where none is wanted.
 std::optional<Vector3> centre_of_radius(const SpharmArguments& arguments, const MappedMesh& mapped,
-                                        Console& console) {
+                                        Session& session) {
   if (!arguments.radius && arguments.shadr.empty()) return std::nullopt;
-  const std::optional<Planetocentric> radial = planetocentric(mapped.provenance());
-  if (!radial) {
-    console.warning(
-        "the longitudes of these harmonics are the map's, not the body's: "
-        "`sphparam map --method radial` makes maps that have the body's");
-  }
-  return arguments.centre.value_or(radial ? radial->centre : Vector3(0, 0, 0));
+  const Vector3 centre = body_centre(planetocentric(mapped.provenance()), arguments.centre);
+  const std::string off = longitudes_off(mapped, centre, false, session.threads());
+  if (!off.empty())
+    session.console.warning("the longitudes of these harmonics are the map's, not the body's: " +
+                            off);
+  return centre;
 }
 
 HarmonicExpansion expand(const SpharmArguments& arguments, const MappedMesh& mapped,
@@ -74,13 +73,12 @@ HarmonicExpansion expand(const SpharmArguments& arguments, const MappedMesh& map
   require_measurable(mapped.mesh());
   require_scalars(mapped.file(), arguments.scalars);
   tell_counted_fillers(mapped, "these harmonics", session.console);
-  HarmonicExpansion expansion =
-      expand_in_harmonics(mapped, arguments.scalars,
-                          {.degree = arguments.degree,
-                           .least_squares = arguments.least_squares,
-                           .threads = session.threads(),
-                           .progress = session.progress()},
-                          centre_of_radius(arguments, mapped, session.console));
+  HarmonicExpansion expansion = expand_in_harmonics(mapped, arguments.scalars,
+                                                    {.degree = arguments.degree,
+                                                     .least_squares = arguments.least_squares,
+                                                     .threads = session.threads(),
+                                                     .progress = session.progress()},
+                                                    centre_of_radius(arguments, mapped, session));
   expansion.normalisation = arguments.normalisation;
   return expansion;
 }
@@ -149,6 +147,8 @@ int run_spharm(SpharmArguments& arguments) {
   HarmonicExpansion expansion = expand(arguments, mapped, session);
   align_as_asked(arguments, mapped, expansion, session);
   session.add_report([&] { return to_json(expansion, arguments.input, mapped.provenance()); });
+  if (expansion.fit.quadrature_change.value_or(0) > settled_quadrature)
+    session.console.warning("the integral has not settled with the most nodes that there are");
   if (!arguments.csv.empty()) session.files.add(arguments.csv, to_csv(expansion));
   if (!arguments.shadr.empty()) session.files.add(arguments.shadr, to_shadr(expansion));
   if (!arguments.coef.empty())

@@ -12,6 +12,7 @@
 #include "reports/told_repairs.h"
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/io/losses.h"
+#include "sphparam/io/up_axis.h"
 #include "sphparam/records/map_record.h"
 #include "sphparam/words.h"
 
@@ -133,6 +134,12 @@ void tell_directions(const MapOutcome& outcome, Console& console) {
   if (!outcome.has_map()) return;
   if (outcome.likeness) tell_likeness(*outcome.likeness, outcome.other, console);
   if (const auto& radial = outcome.result.radial) console.say("  " + radial_line(*radial));
+  const UprightAxes axes = upright_axes(outcome.source.file);
+  if ((outcome.result.radial || outcome.options.align_to) && axes.up != Vector3::UnitZ())
+    console.say("  " + name_of_direction(axes.up) + " points up in the file: it is north");
+  const bool inside_out = !shape_warnings(outcome.source.inspection).empty();
+  if (outcome.result.radial && outcome.result.radial->folds > 0 && inside_out)
+    console.say("  the faces point inwards: --repair=orientation turns them");
   if (const auto& angle = outcome.result.alignment) {
     console.say("  turned to the directions it is aligned to: " +
                 short_number(*angle * 180 / std::numbers::pi) +

@@ -50,6 +50,7 @@ BakeScene scene_for(const MappedMesh& source, BakeTarget target, bool with_textu
   BakeScene scene{settings.from ? make_source(*settings.from) : make_source(source),
                   std::move(target), settings.fields, settings.threads};
   scene.options.centre = body_centre(planetocentric(source.provenance()), settings.fields.centre);
+  scene.body_axes = body_axes(source.file());
   scene.calm_beyond = settings.from ? settings.calm_beyond : 0;
   scene.mirrored = info_of(settings.convention).turns < 0;
   if (with_textures) read_source_textures(settings, scene.source);

@@ -54,6 +54,7 @@ struct BakeScene {
   double calm_beyond = 0;  // as in `BakeSettings`
   std::shared_ptr<const CalmWalls> walls = nullptr;  // none: nothing is calm
   bool ids_as_colours = false;  // in integer images, which cannot hold large numbers
+  Eigen::Matrix3d body_axes = Eigen::Matrix3d::Identity();  // as in io/planetocentric.h
 };
 
 /// "m", "km", "0.3 m"; nothing where no body says what the mesh's unit is.

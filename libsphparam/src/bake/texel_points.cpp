@@ -68,7 +68,8 @@ TexelFinder::TexelFinder(const BakeScene& scene, const TexelOwners& owners,
   if (scene.source.mapped && (sphere || !scene.target.is_source)) {
     source_ = &scene.source.mapped->locator();
     if (const auto radial = planetocentric(scene.source.mapped->provenance())) {
-      seen_from_centre_ = scene.source.mesh().positions.rowwise() - radial->centre.transpose();
+      const StandingBody body = standing_body(scene.source.mapped->file(), radial->centre);
+      seen_from_centre_ = body.mesh.positions.rowwise() - body.centre.transpose();
     }
   }
   if (sphere) {

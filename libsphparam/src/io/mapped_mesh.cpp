@@ -15,6 +15,7 @@
 #include "sphparam/io/fillers.h"
 #include "sphparam/io/map_files.h"
 #include "sphparam/io/paths.h"
+#include "sphparam/io/planetocentric.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/io/written_map.h"
 #include "sphparam/names.h"
@@ -61,7 +62,7 @@ std::optional<WrittenMap> written_map(const MeshSource& source, const LoadOption
 WrittenMap made_map(const MeshSource& source, ParameterizeOptions options) {
   require_area(source);
   options.fillers = fillers_of(source.file);
-  Parameterization result = parameterize(source.file.mesh, source.topology.value(), options);
+  Parameterization result = parameterize_standing(source.file, source.topology.value(), options);
   if (!result.certificate.bijective()) {
     throw NotCertifiedError(display_name(source.path) +
                             ": no one-to-one map was found: " + verdict(result.certificate));

@@ -6,7 +6,11 @@
 #include <string>
 #include <string_view>
 
+#include "mesh/triangle_geometry.h"
 #include "number_text.h"
+#include "sphparam/io/fillers.h"
+#include "sphparam/io/up_axis.h"
+#include "sphparam/sphere/radial_directions.h"
 
 namespace sphparam {
 namespace {
@@ -52,7 +56,8 @@ std::optional<Planetocentric> planetocentric(const Provenance& provenance) {
   const auto c = numbers<3>(*centre);
   const auto radians = numbers<1>(*movement);
   if (!c || !radians || radians->front() < 0) return std::nullopt;
-  return Planetocentric{{(*c)[0], (*c)[1], (*c)[2]}, radians->front()};
+  return Planetocentric{
+      {(*c)[0], (*c)[1], (*c)[2]}, radians->front(), value_of(provenance, "anew") != nullptr};
 }
 
 Vector3 body_centre(const std::optional<Planetocentric>& radial,
@@ -65,6 +70,53 @@ bool is_about(const Planetocentric& radial, const Vector3& centre, const Triangl
   const double radius =
       (mesh.positions.rowwise() - radial.centre.transpose()).rowwise().norm().mean();
   return (centre - radial.centre).norm() <= rounding * radius;
+}
+
+Eigen::Matrix3d body_axes(const MeshFile& file) {
+  const UprightAxes axes = upright_axes(file);
+  Eigen::Matrix3d rows = Eigen::Matrix3d::Identity();
+  if (axes.up == Vector3::UnitZ()) return rows;
+  rows << axes.right().transpose(), -axes.front.transpose(), axes.up.transpose();
+  return rows;
+}
+
+StandingBody standing_body(const MeshFile& file, const Vector3& centre) {
+  const Eigen::Matrix3d axes = body_axes(file);
+  if (axes.isIdentity(0)) return {file.mesh, centre};
+  return {{file.mesh.positions * axes.transpose(), file.mesh.triangles}, axes * centre};
+}
+
+Parameterization parameterize_standing(const MeshFile& file, const Topology& topology,
+                                       const ParameterizeOptions& options) {
+  if (options.method != Method::Radial) return parameterize(file.mesh, topology, options);
+  const StandingBody body = standing_body(file, options.centre);
+  ParameterizeOptions there = options;
+  there.centre = body.centre;
+  Parameterization result = parameterize(body.mesh, topology, there);
+  result.radial->centre = options.centre;
+  return result;
+}
+
+SphereMap body_directions(const MeshFile& file, const Vector3& centre) {
+  const StandingBody body = standing_body(file, centre);
+  return radial_directions(body.mesh, body.centre);
+}
+
+bool is_as_said(const Planetocentric& radial, const MeshFile& file, const SphereMap& map) try {
+  constexpr double rounding = 1e-5;  // of positions in float32 near the centre
+  if (radial.made_anew) return false;
+  const SphereMap directions = body_directions(file, radial.centre);
+  const Triangles surface = surface_of(file.mesh, fillers_of(file)).triangles;
+  for (Face f = 0; f < surface.rows(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      const Vertex v = surface(f, k);
+      const double off = angle_between(map.point(v), directions.point(v));
+      if (!(off <= radial.largest_movement + rounding)) return false;
+    }
+  }
+  return true;
+} catch (const VertexAtCentre&) {
+  return false;
 }
 
 }  // namespace sphparam

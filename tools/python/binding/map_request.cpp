@@ -6,9 +6,9 @@
 
 #include "arrays.h"
 #include "sphparam/io/file_numbers.h"
+#include "sphparam/io/planetocentric.h"
 #include "sphparam/io/upright_frame.h"
 #include "sphparam/names.h"
-#include "sphparam/sphere/radial_directions.h"
 
 namespace sphparam::python {
 namespace {
@@ -110,9 +110,9 @@ void settle_vertices(Request& request, const MeshFile& file) {
 
 void settle(Request& request, MeshFile& file, const Topology& topology) {
   ParameterizeOptions& options = request.options;
-  if (request.to_body) options.align_to = radial_directions(file.mesh, options.centre);
   settle_vertices(request, file);
   if (request.stands) stand(request, file, topology);
+  if (request.to_body) options.align_to = body_directions(file, options.centre);
 }
 
 }  // namespace sphparam::python

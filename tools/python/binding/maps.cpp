@@ -17,6 +17,7 @@
 #include "sphparam/io/map_files.h"
 #include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/mesh_refusal.h"
+#include "sphparam/io/planetocentric.h"
 #include "sphparam/io/upright_frame.h"
 #include "sphparam/io/verify_map.h"
 #include "sphparam/mesh/mesh_defects.h"
@@ -86,7 +87,7 @@ Mapped map_mesh(MeshSource source, Request request) {
   const Stopwatch stopwatch;
   const std::clock_t begin = std::clock();
   options.fillers = fillers_of(source.file);
-  Parameterization result = parameterize(source.file.mesh, topology, options);
+  Parameterization result = parameterize_standing(source.file, topology, options);
   const Spent spent{stopwatch.seconds(),
                     static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC};
   require_wanted(result, options);

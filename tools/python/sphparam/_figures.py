@@ -117,7 +117,7 @@ class Radial(NamedTuple):
     centre: Tuple[float, float, float]
     """In the mesh's coordinates."""
     folds: int
-    """Triangles that are not positive in these directions; 0: θ and φ are planetocentric, exactly."""
+    """Triangles of the surface that are not positive in these directions; 0: θ and φ are planetocentric, exactly."""
     folded_area: float
     """Their share of the area."""
     moved: float

@@ -67,13 +67,13 @@ def _poles(poles: Any) -> Dict[str, Any]:
     return {"automatic_poles": poles != "none"}
 
 
-def _stance(up: Any, front: Any, poles: Any, pins: Any, align: Any) -> Dict[str, Any]:
+def _stance(up: Any, front: Any, poles: Any, pins: Any, align: Any, method: str) -> Dict[str, Any]:
     """How the mesh stands, where that is to be how the map lies."""
     if up is None and front is None and not (isinstance(poles, str) and poles == "up"):
         return {}
     if pins or align is not None:
         raise ValueError("up, front, poles='up': not with pins or align, which say where the map lies")
-    upright = isinstance(poles, str) and poles != "none"
+    upright = isinstance(poles, str) and poles != "none" and (method != "radial" or poles == "up")
     return {"up": as_direction(up, "up"), "front": as_direction(front, "front"), "stands": True, "upright_poles": upright}
 
 
@@ -137,7 +137,7 @@ def requested(
         measure_stages=measure_stages, threads=_arrays.threads(threads),
     )  # fmt: skip
     pinned = [] if pins is None else _pins(pins)
-    options.update(_weight(balance, weight), **_poles(poles), **_stance(up, front, poles, pinned, align))
+    options.update(_weight(balance, weight), **_poles(poles), **_stance(up, front, poles, pinned, align, method))
     if meridian is not None:
         options["meridian"] = _vertex_number(meridian, "meridian")
     if pinned:

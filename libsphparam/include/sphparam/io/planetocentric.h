@@ -13,6 +13,7 @@ namespace sphparam {
 struct Planetocentric {
   Vector3 centre;               // in the mesh's coordinates
   double largest_movement = 0;  // of a vertex from its direction, in radians; 0: none was moved
+  bool made_anew = false;       // nothing of the directions is left
 };
 
 /// The lines that say so in the header of a written map: radial-centre, radial-movement. None of
@@ -29,6 +30,33 @@ Vector3 body_centre(const std::optional<Planetocentric>& radial,
 
 /// Whether a radial map is about this centre: to a millionth of the mean distance of the vertices.
 bool is_about(const Planetocentric& radial, const Vector3& centre, const TriangleMesh& mesh);
+
+/// How a body stands in the coordinates of a file, the rows x, y, z of its own frame: north is what
+/// the file says points up (up_axis.h), z where it says nothing, and then this is the identity;
+/// longitude −90° is the file's front, so that glTF has back the frame that it was turned from.
+Eigen::Matrix3d body_axes(const MeshFile& file);
+
+/// The mesh and a centre in the body's frame.
+struct StandingBody {
+  TriangleMesh mesh;
+  Vector3 centre;
+};
+/// Requires: a centre in the mesh's coordinates. Ensures: the bits of the file where z is up.
+StandingBody standing_body(const MeshFile& file, const Vector3& centre);
+
+/// `parameterize` of the mesh of a file; by Method::Radial as the body stands, `centre` being in
+/// the mesh's coordinates as always.
+Parameterization parameterize_standing(const MeshFile& file, const Topology& topology,
+                                       const ParameterizeOptions& options);
+
+/// The direction of each vertex from the centre, in the body's frame: where a map with its
+/// longitudes and latitudes has the vertex. Throws: as `radial_directions`.
+SphereMap body_directions(const MeshFile& file, const Vector3& centre);
+
+/// Whether the map is what such lines say, as measured: it is not made anew, and no vertex of the
+/// surface (others than fillers have) is farther from its direction than they say, up to rounding.
+/// Not so where positions were moved since, or the map turned.
+bool is_as_said(const Planetocentric& radial, const MeshFile& file, const SphereMap& map);
 
 /// Whether a line with this key is one of them: it goes where such a map is turned.
 bool is_planetocentric(const std::string& key);

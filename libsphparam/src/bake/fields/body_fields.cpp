@@ -33,16 +33,17 @@ double latitude(const Vector3& p) {
   return elementary::atan2(p.z(), elementary::hypot(p.x(), p.y())) * degrees;
 }
 
-/// A field of what `value(face, p, out)` makes of points p as seen from the centre.
+/// A field of what `value(face, p, out)` makes of points p as seen from the centre, in the frame of
+/// the body.
 template <class Value>
 SurfaceField field_of_places(SurfaceField described, const BakeScene& scene, const Value& value) {
   const TriangleMesh& mesh = scene.source.mesh();
   const int channels = described.channels;
-  described.evaluate = [&mesh, centre = centre_of(scene), channels, value](
+  described.evaluate = [&mesh, centre = centre_of(scene), axes = scene.body_axes, channels, value](
                            std::span<const SurfaceSample> samples, float* values) {
     for (const SurfaceSample& sample : samples) {
       const Vector3 p = interpolate(mesh.positions, mesh.triangles, sample.point) - centre;
-      value(sample.point.face, p, values);
+      value(sample.point.face, Vector3(axes * p), values);
       values += channels;
     }
   };
@@ -122,10 +123,10 @@ SurfaceField make_slope(const BakeScene& scene, const std::string&) {
        .about = "degrees between the surface's normal and the direction from the centre",
        .unit = "degree",
        .range = std::pair(0.0, 180.0)},
-      scene, [&mesh](Face f, const Vector3& p, float* out) {
-        const Vector3 normal =
-            flat_normal(mesh.position(mesh.triangles(f, 0)), mesh.position(mesh.triangles(f, 1)),
-                        mesh.position(mesh.triangles(f, 2)));
+      scene, [&mesh, axes = scene.body_axes](Face f, const Vector3& p, float* out) {
+        const Vector3 normal = axes * flat_normal(mesh.position(mesh.triangles(f, 0)),
+                                                  mesh.position(mesh.triangles(f, 1)),
+                                                  mesh.position(mesh.triangles(f, 2)));
         out[0] = static_cast<float>(angle_between(normal, p.stableNormalized()) * degrees);
       });
 }

@@ -43,7 +43,9 @@ double largest_angle(const BakeScene& scene, const BakeSettings& settings) {
 std::optional<BodyPlaces> body_places(const MappedMesh& source, const BakeScene& scene,
                                       const BakeSettings& settings) {
   const std::optional<Planetocentric> radial = planetocentric(source.provenance());
-  if (!radial || !is_about(*radial, *scene.options.centre, source.mesh())) return std::nullopt;
+  if (!radial || !is_about(*radial, *scene.options.centre, source.mesh()) ||
+      !is_as_said(*radial, source.file(), source.map()))
+    return std::nullopt;
   const bool linear = settings.interpolation == Interpolation::Uv;
   if (!linear && !settings.from) return BodyPlaces{radial->largest_movement, "sphparam radial map"};
   return BodyPlaces{std::max(radial->largest_movement, largest_angle(scene, settings)),

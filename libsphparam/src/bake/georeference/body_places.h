@@ -14,7 +14,8 @@ struct BodyPlaces {
   std::string how = {};  // what it is that is off, for names: "sphparam radial map"
 };
 
-/// Nothing where the map is not radial about the body's centre. What is linear in (u, v), or found
+/// Nothing where the map is not radial about the body's centre, or not what its header says of
+/// that. What is linear in (u, v), or found
 /// along normals, is measured at the texels, 2048 a row at most.
 /// Requires: the scene of `source`, its options with the body's centre.
 std::optional<BodyPlaces> body_places(const MappedMesh& source, const BakeScene& scene,
