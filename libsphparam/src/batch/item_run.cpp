@@ -15,6 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include "batch/child.h"
+#include "batch/input_hash.h"
 #include "batch/options_hash.h"
 #include "batch/publication.h"
 #include "batch/staging.h"
@@ -135,10 +136,12 @@ class ItemRun {
   /// Empty: input and options are those that were planned.
   std::string complaint_of_input() try {
     const FileStamp stamp = stamp_of(item_.path);
-    record_.head.input = hash_of_file(item_.path);
-    if (!is_fresh(stamp)) record_.head.stamp = stamp;
+    const InputHash input = hash_of_input(item_.path);
+    record_.head.input = input.hash;
+    if (input.alone && !is_fresh(stamp)) record_.head.stamp = stamp;
     if (record_.head.input != item_.input)
-      return "the input has changed since the plan; `sphparam batch plan` plans it as it is";
+      return "the input has changed since the plan, or a file that it names; `sphparam batch plan` "
+             "plans it as it is";
     if (OptionsHash(setting_.plan).of(item_) != item_.options)
       return "a file that the options name has changed since the plan; `sphparam batch plan` plans "
              "it as it is";
@@ -225,7 +228,9 @@ bool record_crash(const ItemSetting& setting, const BatchItem& item, const std::
     return false;
   }
   BatchRecord record = record_of(setting, item);
-  fs::create_directories(staged);
+  std::error_code error;
+  fs::create_directories(staged, error);
+  if (error) throw BatchMachineError(staged + ": " + error.message());
   record.log = small_file(staged + "/log").value_or("");
   record.head.code = code;
   record.head.reason = reason_of_end(code, record.log);

@@ -5,11 +5,11 @@
 
 #include <atomic>
 #include <exception>
-#include <filesystem>
 #include <mutex>
 #include <thread>
 
 #include "batch/content_hash.h"
+#include "batch/input_hash.h"
 #include "batch/manifest.h"
 #include "batch/options_hash.h"
 #include "batch/steps.h"
@@ -50,8 +50,8 @@ void hash_inputs(BatchPlan& plan, const BatchPlanOptions& options) {
   const auto caller = std::this_thread::get_id();
   on_own_threads(plan.items.size(), options.threads, [&](std::size_t i) {
     BatchItem& item = plan.items[i];
-    item.size = std::filesystem::file_size(item.path);
-    item.input = hash_of_file(item.path);
+    item.input = hash_of_input(item.path).hash;
+    item.size = stamp_of(item.path).size;
     const double done = static_cast<double>(++read) / static_cast<double>(plan.items.size());
     if (!options.progress || std::this_thread::get_id() != caller) return;
     if (!options.progress("reading inputs", done)) throw Cancelled();

@@ -19,6 +19,7 @@
 
 #include "batch/child.h"
 #include "batch/content_hash.h"
+#include "batch/input_hash.h"
 #include "batch/item_run.h"
 #include "batch/publication.h"
 #include "batch/staging.h"
@@ -65,7 +66,7 @@ std::vector<std::size_t> items_of(const BatchPlan& plan, const BatchRunOptions& 
 bool has_same_input(const BatchRecordHead& head, const std::string& path, bool rehash) try {
   const FileStamp none;
   if (!rehash && !(head.stamp == none) && stamp_of(path) == head.stamp) return true;
-  return !head.input.empty() && hash_of_file(path) == head.input;
+  return !head.input.empty() && hash_of_input(path).hash == head.input;
 } catch (const ReadError&) {
   return head.input.empty();  // it could not be read then either
 }
@@ -96,6 +97,21 @@ class BatchRun {
     make_folders();
     remove_left_staging(folder_);
     summary_.items = items_.size();
+    try {
+      run_items();
+      stop_all();
+    } catch (...) {  // nobody else would look after those that run
+      stop_all_whatever_happens();
+      throw;
+    }
+    if (!machine_error_.empty()) throw BatchMachineError(machine_error_);
+    summary_.seconds = stopwatch.seconds();
+    summary_.own_cpu_seconds = own_cpu_seconds() - cpu_before;
+    return summary_;
+  }
+
+ private:
+  void run_items() {
     for (std::size_t next = 0; next < items_.size() || !running_.empty();) {
       summary_.interrupted |= !goes_on();
       if (summary_.interrupted) break;
@@ -105,14 +121,8 @@ class BatchRun {
         start(items_[next - 1]);
       }
     }
-    stop_all();
-    if (!machine_error_.empty()) throw BatchMachineError(machine_error_);
-    summary_.seconds = stopwatch.seconds();
-    summary_.own_cpu_seconds = own_cpu_seconds() - cpu_before;
-    return summary_;
   }
 
- private:
   void make_folders() const try {
     for (const char* const name : {"results", "failed", "staging"})
       fs::create_directories(fs::path(folder_) / name);
@@ -158,10 +168,16 @@ class BatchRun {
     int ends[2];
     if (::pipe2(ends, O_CLOEXEC) != 0)
       throw BatchMachineError(std::string("cannot make a pipe: ") + std::strerror(errno));
-    const pid_t child = start_child([&] { return work(plan_.items[number], ends[1]); });
-    ::setpgid(child, child);
+    running_.push_back({number, 0, ends[0], ""});
+    try {
+      running_.back().child = start_child([&] { return work(plan_.items[number], ends[1]); });
+    } catch (...) {
+      running_.pop_back();
+      for (const int end : ends) ::close(end);
+      throw;
+    }
+    ::setpgid(running_.back().child, running_.back().child);
     ::close(ends[1]);
-    running_.push_back({number, child, ends[0], ""});
   }
 
   /// In the process of an item. Its result must not be lost where the disk is full.
@@ -183,21 +199,26 @@ class BatchRun {
     auto running = running_.begin();
     for (const pollfd& pipe : pipes) {
       const auto one = running++;
-      if (pipe.revents != 0 && has_ended(*one)) running_.erase(one);
+      if (pipe.revents == 0 || !has_ended(*one)) continue;
+      const RunningItem ended = std::move(*one);
+      running_.erase(one);  // also where its end cannot be noted
+      take_end(ended);
     }
   }
 
-  /// Takes what the pipe tells; at its end, the end of the item.
-  bool has_ended(RunningItem& running) {
+  /// Takes what the pipe tells.
+  static bool has_ended(RunningItem& running) {
     char text[4096];
     const ssize_t count = ::read(running.pipe, text, sizeof text);
     if (count > 0) running.message.append(text, static_cast<std::size_t>(count));
-    if (count > 0 || (count < 0 && errno == EINTR)) return false;
-    ::close(running.pipe);
+    return count == 0 || (count < 0 && errno != EINTR);
+  }
+
+  void take_end(const RunningItem& ended) {
+    ::close(ended.pipe);
     const std::string staged =
-        folder_ + "/staging/" + staging_name(plan_.items[running.item].id, running.child);
-    note_end(running, wait_for_child(running.child), staged);
-    return true;
+        folder_ + "/staging/" + staging_name(plan_.items[ended.item].id, ended.child);
+    note_end(ended, wait_for_child(ended.child), staged);
   }
 
   void note_end(const RunningItem& running, const ChildEnd& end, const std::string& staged) {
@@ -235,6 +256,16 @@ class BatchRun {
     stopping_ = true;
     for (const RunningItem& running : running_) ::kill(-running.child, SIGTERM);
     while (!running_.empty()) wait_for_ends();
+  }
+
+  /// Something went wrong before, which is what is told.
+  void stop_all_whatever_happens() {
+    while (!running_.empty()) {
+      try {
+        stop_all();
+      } catch (const std::exception&) {
+      }
+    }
   }
 
   std::string folder_;

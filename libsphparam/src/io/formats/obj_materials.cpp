@@ -283,6 +283,22 @@ std::vector<std::string> library_files(const std::vector<std::string>& libraries
   return files;
 }
 
+std::vector<std::string> library_images(const std::vector<std::string>& libraries,
+                                        const fs::path& folder, const ReadOptions& options) {
+  std::map<std::string, Material> known;
+  std::vector<std::string> images, unused;
+  for (const std::string& statement : libraries)
+    read_library(statement, folder, options, known, unused);
+  const auto add = [&](const MaterialTexture& texture) {
+    if (!texture.path.empty()) images.push_back(texture.path);
+  };
+  for (const auto& [name, material] : known) {
+    add(material.colour);
+    for (const MaterialTexture* const texture : material.channels.textures()) add(*texture);
+  }
+  return images;
+}
+
 ObjMaterials read_obj_materials(const std::vector<std::string>& names,
                                 const std::vector<std::string>& libraries, const fs::path& folder,
                                 const ReadOptions& options) {

@@ -38,4 +38,9 @@ ObjMaterials read_obj_materials(const std::vector<std::string>& names,
 std::vector<std::string> library_files(const std::vector<std::string>& libraries,
                                        const std::filesystem::path& folder);
 
+/// The images that their materials name, below the folder, there or not.
+std::vector<std::string> library_images(const std::vector<std::string>& libraries,
+                                        const std::filesystem::path& folder,
+                                        const ReadOptions& options);
+
 }  // namespace sphparam
