@@ -1,12 +1,18 @@
 #include "batch/options_hash.h"
 
 #include <filesystem>
-#include <sstream>
+#include <string_view>
 
 #include "batch/content_hash.h"
 #include "batch/steps.h"
 
 namespace sphparam {
+
+namespace {
+
+constexpr std::string_view joints = "=:,";
+
+}  // namespace
 
 std::string OptionsHash::of(const BatchItem& item) {
   std::vector<BatchStep> steps = plan_.steps;
@@ -21,21 +27,23 @@ std::string OptionsHash::of(const BatchItem& item) {
   return content_hash(text);
 }
 
-/// Of the files that a word names with their whole paths, alone or behind an equals sign or a
-/// colon; several have commas between them.
+/// Of the files that a word names with their whole paths: alone, or behind a sign that joins them
+/// to a name or to others, to the end of the word or to a comma.
 std::string OptionsHash::content_of(const std::string& word) {
-  const std::size_t joint = word.find_first_of("=:");
-  const std::string path =
-      word.starts_with('/') || joint == std::string::npos ? word : word.substr(joint + 1);
-  std::string contents = content_of_file(path);
-  if (!contents.empty()) return contents;
-  std::istringstream parts(path);
-  for (std::string part; std::getline(parts, part, ',');) contents += content_of_file(part);
+  std::string contents;
+  for (std::size_t at = word.find('/'); at != std::string::npos; at = word.find('/', at + 1)) {
+    const bool begins = at == 0 || joints.find(word[at - 1]) != std::string_view::npos;
+    if (!begins) continue;
+    std::string content = content_of_file(word.substr(at));
+    const std::size_t comma = word.find(',', at);
+    if (content.empty() && comma != std::string::npos)
+      content = content_of_file(word.substr(at, comma - at));
+    contents += content;
+  }
   return contents;
 }
 
 std::string OptionsHash::content_of_file(const std::string& path) {
-  if (!path.starts_with('/')) return "";
   const auto [known, is_new] = contents_.emplace(path, "");
   std::error_code hidden;
   if (is_new && std::filesystem::is_regular_file(path, hidden)) known->second = hash_of_file(path);
