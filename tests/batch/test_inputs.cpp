@@ -71,6 +71,10 @@ TEST_CASE("inputs: a list is relative to itself, has remarks, and all it names m
   TreeOfFiles tree({"in/a.ply", "in/b c.ply"});
   tree.write("in/list.txt", "# two\na.ply\r\n\nb c.ply  # with a blank\n");
   CHECK(tree.ids("in/list.txt") == Ids{"a", "b_c"});
+  tree.write("in/list.txt",
+             "\xEF\xBB\xBF"
+             "a.ply\t# the first\n  # none\nb c.ply\n");
+  CHECK(tree.ids("in/list.txt") == Ids{"a", "b_c"});
   tree.write("in/list.txt", "a.ply\nnot_there.ply\n");
   CHECK_THROWS_WITH(tree.ids("in/list.txt"),
                     Contains("of which 1 is not there") && Contains("not_there.ply"));
@@ -78,6 +82,12 @@ TEST_CASE("inputs: a list is relative to itself, has remarks, and all it names m
   CHECK_THROWS_WITH(tree.ids("in/letter.txt"), Contains("letter.txt was read as a list of paths"));
   tree.write("in/list.txt", "a.ply\n./a.ply\n");
   CHECK_THROWS_WITH(tree.ids("in/list.txt"), Contains("once"));
+}
+
+TEST_CASE("inputs: a sign of remarks within a name of a list belongs to the name") {
+  TreeOfFiles tree({"a#1.ply", "b.ply"});
+  tree.write("list.txt", "a#1.ply # remark\nb.ply ## more\n");
+  CHECK(tree.ids("list.txt") == Ids{"a_1", "b"});
 }
 
 TEST_CASE("inputs: a table has ids and columns of its own") {
@@ -132,6 +142,15 @@ TEST_CASE("inputs: a folder that links lead to is looked into once, also where t
   std::filesystem::create_directory_symlink(".", tree.root / "in/loop");
   std::filesystem::create_directory_symlink("../elsewhere", tree.root / "in/more");
   CHECK(tree.ids("in") == Ids{"a", "b"});
+}
+
+TEST_CASE("inputs: links that go round and names that are too long are no files, and no error") {
+  TreeOfFiles tree({"in/a.ply", "subjects/s1/surf/lh.white"});
+  std::filesystem::create_symlink("round", tree.root / "in/round");
+  CHECK(tree.ids("in") == Ids{"a"});
+  CHECK(tree.ids("in/*") == Ids{"a"});
+  CHECK_NOTHROW(tree.ids("subjects", std::string(300, 's')));
+  CHECK_THROWS_AS(tree.ids(std::string(300, 'n')), BatchInputError);
 }
 
 TEST_CASE("inputs: patterns, and places where nothing is") {

@@ -179,6 +179,12 @@ TEST_CASE("asset: what cannot be done is said, and leaves no folder") {
   CHECK_THAT(fine.err, Contains("--resolution is 2000: it must be about "));
   write_bytes(mesh, obj_text(icosphere(1)));
   CHECK_FALSE(fs::exists(out));
+  for (const std::string& ending : {std::string(), std::string(".ply")}) {
+    const Ended too_long =
+        sphparam_program({"asset", mesh, "-o", folder / std::string(300, 'l') + ending});
+    CHECK(too_long.code == 3);
+    CHECK_THAT(too_long.err, !Contains("internal error"));
+  }
   write_bytes(out, "a file");
   const Ended file = asset({});
   CHECK(file.code == 3);

@@ -55,9 +55,9 @@ class Folder {
       : path_(arguments.output.empty() ? stem_or(arguments.input, "mesh") + "_sphere"
                                        : arguments.output) {
     while (path_.size() > 1 && path_.ends_with('/')) path_.pop_back();
-    if (fs::exists(path_) && !fs::is_directory(path_))
-      throw WriteError(path_, "is a file, and a folder is needed: -o names one");
     std::error_code error;
+    if (fs::exists(path_, error) && !fs::is_directory(path_, error))
+      throw WriteError(path_, "is a file, and a folder is needed: -o names one");
     is_made_ = fs::create_directory(path_, error);
     if (error == std::errc::no_such_file_or_directory)
       throw WriteError(path_, "the folder that it is to be made in is not there");
@@ -128,9 +128,10 @@ void tell(const RemadeAsset& made, const std::string& folder, TextureFormat text
 
 /// Before any work. A folder is no file that could be replaced.
 void require_sense(const AssetArguments& arguments) {
-  if (is_mesh_name(arguments.output) && !fs::is_directory(arguments.output))
+  std::error_code hidden;  // what cannot be asked is not there, and making it says why
+  if (is_mesh_name(arguments.output) && !fs::is_directory(arguments.output, hidden))
     check_places({{"-o", arguments.output}});
-  if (is_mesh_name(arguments.output) && !fs::exists(arguments.output))
+  if (is_mesh_name(arguments.output) && !fs::exists(arguments.output, hidden))
     throw UsageMistake("-o: the folder that files go to, not " + arguments.output +
                        ": `export` writes one file");
 }

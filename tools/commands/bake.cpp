@@ -120,8 +120,9 @@ BakeArguments of_part(BakeArguments arguments, int part) {
   arguments.input = path_of_part(arguments.input, part);
   arguments.target = file_for_part(arguments.target, part);
   arguments.settings.texture = file_for_part(arguments.settings.texture, part);
+  std::error_code hidden;
   const bool in_folder =
-      arguments.output.ends_with('/') || std::filesystem::is_directory(arguments.output);
+      arguments.output.ends_with('/') || std::filesystem::is_directory(arguments.output, hidden);
   if (!in_folder) arguments.output = path_of_part(arguments.output, part);
   return arguments;
 }

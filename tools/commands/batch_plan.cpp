@@ -125,9 +125,11 @@ void require_outputs_apart(const std::vector<BatchStep>& steps, const BatchInput
 
 /// Values of columns that name files beside the table or here, from the root too.
 void complete_values(BatchInputs& inputs) {
+  std::error_code hidden;  // a text that is too long for a name is none
   for (BatchInput& shape : inputs.shapes)
     for (std::string& value : shape.values)
-      if (!value.empty() && fs::is_regular_file(value)) value = fs::absolute(value).string();
+      if (!value.empty() && fs::is_regular_file(value, hidden))
+        value = fs::absolute(value).string();
 }
 
 std::string first_reason(const std::string& folder, const BatchPlan& plan) {

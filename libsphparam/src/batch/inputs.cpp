@@ -29,6 +29,17 @@ std::string whole_path(const fs::path& path) {
   return fs::absolute(path).lexically_normal().string();
 }
 
+/// Also false for what cannot be asked: names that are too long, links that go round, folders that
+/// are closed to us.
+bool is_file(const fs::path& path) {
+  std::error_code hidden;
+  return fs::is_regular_file(path, hidden);
+}
+bool is_folder(const fs::path& path) {
+  std::error_code hidden;
+  return fs::is_directory(path, hidden);
+}
+
 bool is_hidden(const fs::path& path) { return path.filename().string().starts_with('.'); }
 
 /// "sub-01_hemi-L_white" of "sub-01_hemi-L_white.surf.gii", "lh.white" of itself.
@@ -51,8 +62,8 @@ class Finder {
 
   void look_at(const std::string& place) {
     const std::string extension = extension_of(place);
-    std::error_code hidden;  // a name that is too long is none
-    if (fs::is_directory(place, hidden)) return folder(place);
+    if (is_folder(place)) return folder(place);
+    std::error_code hidden;
     if (!is_stream(place) && !fs::exists(place, hidden)) return pattern(place);
     if (extension == ".csv" || extension == ".tsv") return table(place);
     if (!is_stream(place) && is_mesh_name(place)) return add(place);
@@ -74,7 +85,7 @@ class Finder {
     glob_t matches{};
     const int result = ::glob(place.c_str(), GLOB_BRACE | GLOB_TILDE, nullptr, &matches);
     for (std::size_t i = 0; i < matches.gl_pathc; ++i)
-      if (fs::is_regular_file(matches.gl_pathv[i])) add(matches.gl_pathv[i]);
+      if (is_file(matches.gl_pathv[i])) add(matches.gl_pathv[i]);
     ::globfree(&matches);
     if (result == GLOB_NOMATCH) throw BatchInputError(place + ": no file matches this pattern");
   }
@@ -86,12 +97,21 @@ class Finder {
     return fs::exists(beside, hidden) ? beside : fs::path(name);
   }
 
+  /// Where it begins: at a '#' that nothing or a blank stands before; others belong to names.
+  static std::size_t remark_in(std::string_view line) {
+    std::size_t at = line.find('#');
+    while (at != std::string_view::npos && at > 0 && line[at - 1] != ' ' && line[at - 1] != '\t')
+      at = line.find('#', at + 1);
+    return at;
+  }
+
   void list(const std::string& place) {
     const FileBytes bytes(place, std::numeric_limits<std::uint64_t>::max());
-    for (std::string line : lines_of(bytes.view())) {
-      const std::size_t remark = line.find('#');
-      if (remark == 0 || (remark != std::string::npos && line[remark - 1] == ' '))
-        line.resize(remark);
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    std::string_view text = bytes.view();
+    if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+    for (std::string line : lines_of(text)) {
+      line.resize(std::min(remark_in(line), line.size()));
       while (!line.empty() && (line.back() == ' ' || line.back() == '\t')) line.pop_back();
       if (line.find('\0') != std::string::npos)
         throw BatchInputError(display_name(place) +
@@ -141,28 +161,28 @@ class Finder {
 
   void folder(const fs::path& place) {
     const std::size_t before = found_.size();
-    if (fs::exists(place / "dataset_description.json")) {
+    const bool is_data_set = is_file(place / "dataset_description.json");
+    if (is_data_set) {
       bids(place);
     } else if (!freesurfer(place)) {
       meshes_below(place);
     }
     if (found_.size() == before)
-      throw BatchInputError(place.string() + ": no mesh in this folder" +
-                            (fs::exists(place / "dataset_description.json")
-                                 ? " is called *_" + options_.surface + ".surf.gii; see --surface"
-                                 : ""));
+      throw BatchInputError(
+          place.string() + ": no mesh in this folder" +
+          (is_data_set ? " is called *_" + options_.surface + ".surf.gii; see --surface" : ""));
   }
 
   /// Subjects in the order of their names, left before right.
   bool freesurfer(const fs::path& place) {
     bool any = false;
     for (const fs::path& subject : sorted(place)) {
-      if (!fs::is_directory(subject / "surf")) continue;
+      if (!is_folder(subject / "surf")) continue;
       for (const std::string side : {"lh", "rh"}) {
         const std::string name = side + "." + options_.surface;
         for (const std::string ending : {".surf.gii", ".gii", ""}) {
           const fs::path file = subject / "surf" / (name + ending);
-          if (!fs::is_regular_file(file)) continue;
+          if (!is_file(file)) continue;
           add(file, shape_id_of(subject.filename().string() + "_" + side + "_" + options_.surface));
           any = true;
           break;
@@ -206,10 +226,12 @@ class Finder {
   /// `seen`: folders as they are called without links, which may lead back to where they lie.
   static void add_files_below(const fs::path& place, std::set<fs::path>& seen,
                               std::vector<fs::path>& files) {
-    if (!seen.insert(fs::canonical(place)).second) return;
+    std::error_code error;
+    const fs::path folder = fs::canonical(place, error);
+    if (error) throw ReadError(place.string(), error.message());
+    if (!seen.insert(folder).second) return;
     for (const fs::path& entry : sorted(place)) {
-      std::error_code leads_nowhere;
-      if (fs::is_directory(entry, leads_nowhere)) {
+      if (is_folder(entry)) {
         add_files_below(entry, seen, files);
       } else {
         files.push_back(entry);
@@ -279,8 +301,7 @@ void require_there(const std::vector<Found>& found) {
   std::vector<std::string> missing;
   std::string list;
   for (const Found& one : found) {
-    std::error_code hidden;
-    if (fs::is_regular_file(one.path, hidden)) continue;
+    if (is_file(one.path)) continue;
     missing.push_back(one.path);
     if (list.empty()) list = one.list;
   }

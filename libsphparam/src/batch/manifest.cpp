@@ -133,7 +133,8 @@ void save_plan(const std::string& folder, const BatchPlan& plan, const std::stri
   const auto path = [&](const char* name) { return (fs::path(folder) / name).string(); };
   const std::string manifest = manifest_path(folder, plan.name);
   PendingFiles files;
-  if (!fs::exists(manifest)) files.add(manifest, manifest_text(plan));
+  std::error_code hidden;
+  if (!fs::exists(manifest, hidden)) files.add(manifest, manifest_text(plan));
   const std::string whole = (fs::absolute(folder) / "").lexically_normal().parent_path().string();
   files.add(path("array.sbatch"), slurm_script(whole, plan, program));
   files.add(path("Snakefile"), snakefile(plan, program));
@@ -145,7 +146,8 @@ BatchPlan load_plan(const std::string& folder, const std::string& name) {
   std::string wanted = name;
   if (wanted.empty()) {
     const std::string latest = (fs::path(folder) / "plan").string();
-    if (!fs::is_regular_file(latest))
+    std::error_code hidden;
+    if (!fs::is_regular_file(latest, hidden))
       throw ReadError(folder, "no batch in this folder; `sphparam batch plan … -o " + folder +
                                   " -- map` makes one");
     wanted = all_of(latest);
