@@ -43,6 +43,14 @@ TEST_CASE("steps: a mesh without {id} in its name is taken by the next step, onc
   CHECK(complete_steps(steps) == steps);
 }
 
+TEST_CASE("steps: a name that is glued to -o is the mesh that is left") {
+  for (const BatchStep& map : {BatchStep{"map", "{input}", "--threads", "2", "-o{id}.sph.ply"},
+                               BatchStep{"map", "{input}", "-o{id}.sph.ply", "--threads", "2"}})
+    CHECK(complete_steps({map, {"export"}}) ==
+          Steps{map, {"export", "{id}.sph.ply", "-o", "{id}.glb"}});
+  CHECK(files_left_by({{"map", "a.ply", "-om=1.ply"}}) == std::vector<std::string>{"m=1.ply"});
+}
+
 TEST_CASE("steps: what names its files is left alone") {
   const Steps steps = {{"map", "-o", "m.sph.ply", "{input}"},
                        {"bake", "{id}.sph.ply", "-o", "{id}_{map}.png"}};

@@ -46,7 +46,8 @@ bool has_placeholder(const std::string& word, std::string_view name) {
   return std::ranges::count(placeholders_in(word), name, &Placeholder::name) > 0;
 }
 
-/// "-o" where the table says "-o": also as --output, and with the value behind an equals sign.
+/// "-o" where the table says "-o": also as --output, with the value behind an equals sign, and with
+/// the value glued to it.
 bool is_option(const std::string& word, std::string_view option) {
   const auto is = [&](std::string_view name) {
     return word == name || word.starts_with(std::string(name) + "=");
@@ -63,6 +64,8 @@ bool has_option(const BatchStep& step, std::string_view option) {
 std::string written_to(const BatchStep& step, std::string_view option) {
   for (std::size_t i = 0; i < step.size(); ++i) {
     if (!is_option(step[i], option)) continue;
+    const bool is_glued = step[i].starts_with("-o") && step[i].size() > 2;  // as in -oNAME
+    if (is_glued) return step[i].substr(2);
     const std::size_t equals = step[i].find('=');
     if (equals != std::string::npos) return step[i].substr(equals + 1);
     return i + 1 < step.size() ? step[i + 1] : "";
