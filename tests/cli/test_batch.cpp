@@ -92,6 +92,57 @@ TEST_CASE("batch: what is done is skipped until its input, its options or its fi
   CHECK(shapes.status()["done"] == 3);
 }
 
+TEST_CASE("batch: a mesh whose buffer or material library changes is another input") {
+  const Shapes shapes(1);
+  const auto write_buffer = [&](float height) {
+    const float points[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, height};
+    const std::uint16_t corners[12] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+    write_bytes(shapes.folder / "in/x.gltf.bin",
+                std::string(reinterpret_cast<const char*>(points), sizeof points) +
+                    std::string(reinterpret_cast<const char*>(corners), sizeof corners));
+  };
+  write_bytes(shapes.folder / "in/x.gltf", R"({"asset": {"version": "2.0"},
+    "buffers": [{"uri": "x.gltf.bin", "byteLength": 72}],
+    "bufferViews": [{"buffer": 0, "byteLength": 48},
+                    {"buffer": 0, "byteOffset": 48, "byteLength": 24}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3",
+                   "min": [0, 0, 0], "max": [1, 1, 9]},
+                  {"bufferView": 1, "componentType": 5123, "count": 12, "type": "SCALAR"}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+    "nodes": [{"mesh": 0}], "scenes": [{"nodes": [0]}], "scene": 0})");
+  write_buffer(1);
+  const std::string ball = shapes.folder / "in/ball0.obj";
+  write_bytes(ball, "mtllib ball.mtl\n" + bytes_of(ball));
+  shapes.plan();
+  CHECK_THAT(shapes.batch("run").err, Contains("2 items: 2 done, 0 failed, 0 done before"));
+  CHECK_THAT(shapes.batch("run").err, Contains("0 done, 0 failed, 2 done before"));
+  const std::string map = shapes.map("x");
+
+  write_buffer(3);
+  CHECK_THAT(shapes.batch("run").err, Contains("0 done, 1 failed, 1 done before"));
+  CHECK_THAT(shapes.batch("status").out,
+             Contains("the input has changed since the plan, or a file that it names"));
+  shapes.plan();
+  CHECK_THAT(shapes.batch("run").err, Contains("1 done, 0 failed, 1 done before"));
+  CHECK(shapes.map("x") != map);
+
+  write_bytes(shapes.folder / "in/ball.mtl", "newmtl m\n");
+  shapes.plan();
+  CHECK_THAT(shapes.batch("run").err, Contains("1 done, 0 failed, 1 done before"));
+}
+
+TEST_CASE("batch: texts that are too long for names are no files, and no error of ours") {
+  const Shapes shapes(1);
+  const std::string text(300, 't');
+  write_bytes(shapes.folder / "t.csv", "path,remark\nin/ball0.obj," + text + "\n");
+  CHECK(sphparam_program({"batch", "plan", shapes.folder / "t.csv", "-o", shapes.work, "--chunk",
+                          "1", "--", "map"})
+            .code == 0);
+  const Ended status = sphparam_program({"batch", "status", shapes.folder / text});
+  CHECK(status.code == 3);
+  CHECK_THAT(status.err, Contains("no batch in this folder"));
+}
+
 TEST_CASE("batch: a plan never changes, tasks that wait run what they were planned for") {
   const Shapes shapes;
   shapes.plan();
@@ -127,6 +178,24 @@ TEST_CASE("batch: failures are tried again when somebody says so, and attempts a
   CHECK_THAT(shapes.batch("run").err, Contains("0 done, 1 failed, 1 done before"));
   CHECK(Json::parse(bytes_of(shapes.work + "/failed/bad.json"))["attempt"] == 2);
   CHECK(shapes.batch("retry", {"--id", "ball0"}).code == 2);
+}
+
+TEST_CASE("batch: ids to try again are looked at before any is marked, and count once") {
+  const Shapes shapes(1);
+  shapes.add_bad();
+  shapes.plan();
+  shapes.batch("run");
+  const Ended wrong = shapes.batch("retry", {"--id", "bad", "--id", "nosuch"});
+  CHECK(wrong.code == 2);
+  CHECK_THAT(wrong.err, Contains("nosuch: no item that failed") && Contains("batch status"));
+  CHECK(shapes.status()["to_retry"] == 0);
+  const std::string mark = shapes.work + "/tasks/" + bytes_of(shapes.work + "/plan").substr(0, 16);
+  fs::create_directories(mark);
+  write_bytes(mark + "/1.done", "");
+  CHECK_THAT(shapes.batch("retry", {"--id", "bad", "--id", "bad"}).err,
+             Contains("1 item in 1 task"));
+  CHECK(shapes.status()["to_retry"] == 1);
+  CHECK_FALSE(fs::exists(mark + "/1.done"));
 }
 
 TEST_CASE("batch: several steps a shape, with values of a table") {

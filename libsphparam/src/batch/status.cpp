@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "batch/alike_reasons.h"
 #include "batch/engines.h"
@@ -104,10 +105,12 @@ void mark_for_retry(const std::string& folder, const BatchItem& item, const Stor
   auto json = nlohmann::ordered_json::parse(record.bytes);
   json["retry"] = true;
   const std::string staged = folder + "/staging/" + staging_name(item.id);
-  fs::create_directories(staged);
+  std::error_code error;
+  fs::create_directories(staged, error);
+  if (error) throw WriteError(staged, error.message());
   publish_failure_bytes(folder, staged, item.id,
                         json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
-  fs::remove_all(staged);
+  fs::remove_all(staged, error);  // what stays is removed by the next run
 }
 
 bool is_wanted(const BatchRetryOptions& options, const BatchItem& item,
@@ -192,20 +195,26 @@ std::string to_json(const BatchStatus& status) {
 BatchRetry retry_batch(const std::string& folder, const BatchPlan& plan,
                        const BatchRetryOptions& options) {
   BatchRetry retry;
-  std::size_t known = 0;
+  std::set<std::string> unknown(options.ids.begin(), options.ids.end());
+  std::vector<std::pair<std::size_t, StoredRecord>> wanted;  // by the number of the item
   for (std::size_t i = 0; i < plan.items.size(); ++i) {
     const BatchItem& item = plan.items[i];
-    const auto record = record_about(folder, item);
+    auto record = record_about(folder, item);
     if (!record || !record->head.failed()) continue;
-    known += std::ranges::count(options.ids, item.id) > 0;
-    if (!is_wanted(options, item, record->head)) continue;
-    if (!record->head.retry) mark_for_retry(folder, item, *record);
+    unknown.erase(item.id);
+    if (is_wanted(options, item, record->head)) wanted.emplace_back(i, std::move(*record));
+  }
+  if (!unknown.empty())  // before anything is marked
+    throw BatchInputError(
+        joined({unknown.begin(), unknown.end()}) +
+        (unknown.size() == 1 ? ": no item that failed" : ": no items that failed") +
+        "; `sphparam batch status` names those");
+  for (const auto& [i, record] : wanted) {
+    if (!record.head.retry) mark_for_retry(folder, plan.items[i], record);
     ++retry.items;
     const int task = static_cast<int>(i) / plan.chunk + 1;
     if (retry.tasks.empty() || retry.tasks.back() != task) retry.tasks.push_back(task);
   }
-  if (known < options.ids.size())
-    throw BatchInputError("not all of " + joined(options.ids) + " are items that failed");
   for (const int task : retry.tasks) {
     std::error_code hidden;  // without Snakemake there is no mark
     fs::remove(task_mark(folder, plan, task), hidden);
