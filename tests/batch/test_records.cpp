@@ -100,6 +100,11 @@ TEST_CASE("staging: a process is known while it lives, and known to be gone afte
   CHECK(staging_name("x", child) == name);
   waitpid(child, nullptr, 0);
   CHECK(owner_of_staging(name) == StagingOwner::IsGone);
+  CHECK(owner_of_staging("x~" + host_name() + ".~12345678~1~2~3") == StagingOwner::Unknown);
+  CHECK(owner_of_staging("x~" + host_name() + ".1234~12345678~1~2~3") == StagingOwner::Unknown);
+  const std::string machine = name.substr(0, name.find('~', 2));
+  CHECK(owner_of_staging(machine + "~12345678~1~2~3") ==
+        (machine.ends_with('.') ? StagingOwner::Unknown : StagingOwner::IsGone));
   CHECK(owner_of_staging("x~elsewhere~12345678~1~2~3") == StagingOwner::Unknown);
   CHECK(owner_of_staging("x") == StagingOwner::Unknown);
 }

@@ -13,6 +13,8 @@
 #include <sstream>
 #include <vector>
 
+#include "batch/content_hash.h"
+
 namespace sphparam {
 
 namespace {
@@ -55,14 +57,22 @@ std::string boot_of_machine() {
   return first_word_of("/proc/sys/kernel/random/boot_id").substr(0, 8);
 }
 
+/// Machines may be called alike ("localhost"), and then share a folder. Empty: nobody can tell, as
+/// in many containers.
+std::string number_of_machine() {
+  const std::string id = first_word_of("/etc/machine-id");  // not to be shown as it is
+  return id.empty() ? "" : content_hash(id).substr(0, 8);
+}
+
 std::string process_space() {
   struct stat status {};
   return ::stat("/proc/self/ns/pid", &status) == 0 ? std::to_string(status.st_ino) : "0";
 }
 
-/// Host, boot, space: of whom processes can be looked up here.
+/// Machine, boot, space: of whom processes can be looked up here.
 const std::vector<std::string>& here() {
-  static const std::vector<std::string> parts = {host_name(), boot_of_machine(), process_space()};
+  static const std::vector<std::string> parts = {host_name() + "." + number_of_machine(),
+                                                 boot_of_machine(), process_space()};
   return parts;
 }
 
@@ -112,7 +122,8 @@ StagingOwner owner_of_staging(const std::string& name) {
   const bool same_boot = parts[1] == here()[1], same_space = parts[2] == here()[2];
   if (same_boot && same_space)
     return lives(parts[3], parts[4]) ? StagingOwner::Lives : StagingOwner::IsGone;
-  return parts[0] == here()[0] && !same_boot ? StagingOwner::IsGone : StagingOwner::Unknown;
+  const bool same_machine = parts[0] == here()[0] && !parts[0].ends_with('.');
+  return same_machine && !same_boot ? StagingOwner::IsGone : StagingOwner::Unknown;
 }
 
 int remove_left_staging(const std::string& folder) {
