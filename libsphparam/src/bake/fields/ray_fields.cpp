@@ -207,7 +207,9 @@ SurfaceField make_bent_normal(const BakeScene& scene, const std::string& argumen
 
 SurfaceField make_thickness(const BakeScene& scene, const std::string& argument) {
   require_float32_size(scene.source.mesh().positions, "thickness");
-  return make_of_scene(thickness_field, scene, argument, 1);
+  SurfaceField field = make_of_scene(thickness_field, scene, argument, 1);
+  field.unit = unit_of_lengths(scene.options);
+  return field;
 }
 
 }  // namespace sphparam

@@ -80,11 +80,23 @@ std::string scaling(const SurfaceField& field, SampleType type) {
 }
 
 std::string band_name(const SurfaceField& field, int band) {
+  if (field.proper_channels() == 1) return field.name;
   static const char* const places[] = {"longitude", "latitude", "0"};
-  if (field.kind == FieldKind::Place && field.channels == 3) return places[band];
-  if (field.channels == 1) return field.name;
+  if (field.kind == FieldKind::Place && field.proper_channels() == 3) return places[band];
   const bool colour = field.kind == FieldKind::Colour;
   return field.name + " " + (colour ? "RGBA"[band] : "xyzw"[band]);
+}
+
+std::string band_of(const SurfaceField& field, int band, SampleType type) {
+  std::string xml = "  <PAMRasterBand band=\"" + std::to_string(band + 1) + "\">\n";
+  if (band >= field.proper_channels()) {
+    xml += element("Description", "surface") + element("ColorInterp", "Alpha");
+  } else {
+    xml += element("Description", band_name(field, band));
+    if (!field.unit.empty()) xml += element("UnitType", field.unit);
+    xml += scaling(field, type);
+  }
+  return xml + "  </PAMRasterBand>\n";
 }
 
 }  // namespace
@@ -122,12 +134,8 @@ std::string sidecar_of(const PlannedImage& image, const BakeSettings& settings,
   xml += "  <GeoTransform>" + std::string(west ? "180" : "-180") + ", " +
          shortest(west ? -texel : texel) + ", 0, 90, 0, " + shortest(-texel) + "</GeoTransform>\n";
   xml += "  <Metadata>\n    <MDI key=\"AREA_OR_POINT\">Area</MDI>\n  </Metadata>\n";
-  for (int band = 0; band < field.channels; ++band) {
-    xml += "  <PAMRasterBand band=\"" + std::to_string(band + 1) + "\">\n";
-    xml += element("Description", band_name(field, band));
-    if (!field.unit.empty()) xml += element("UnitType", field.unit);
-    xml += scaling(field, image.file.sample_type) + "  </PAMRasterBand>\n";
-  }
+  for (int band = 0; band < field.channels; ++band)
+    xml += band_of(field, band, image.file.sample_type);
   return xml + "</PAMDataset>\n";
 }
 
