@@ -10,6 +10,7 @@
 #include "rays/ray_scene.h"
 #include "scenes.h"
 #include "sphparam/bake/bake.h"
+#include "sphparam/io/fillers.h"
 #include "sphparam/sphere/radial_directions.h"
 #include "sphparam/sphere/spherical_coordinates.h"
 #include "support/test_meshes.h"
