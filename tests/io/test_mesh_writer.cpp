@@ -129,6 +129,19 @@ TEST_CASE("mesh_writer: OBJ carries colours, normals, texture coordinates and ma
   CHECK(values_of(back.find_vertex_property("blue"))[1] == Approx(128.0 / 255));
 }
 
+TEST_CASE("mesh_writer: OBJ has colours of whole numbers as fractions of their brightest") {
+  const auto red = [](ScalarType type, double value) {
+    MeshFile file = everything();
+    for (const char* const name : {"red", "green", "blue"})
+      file.set_vertex_property({name, type, std::vector<double>(4, value)});
+    return values_of(read(serialise_obj(file)).find_vertex_property("red"))[0];
+  };
+  CHECK(red(ScalarType::Uint8, 51) == Approx(0.2));
+  CHECK(red(ScalarType::Int32, 51) == Approx(0.2));
+  CHECK(red(ScalarType::Uint16, 13107) == Approx(0.2));
+  CHECK(red(ScalarType::Float32, 0.25) == 0.25);
+}
+
 TEST_CASE(
     "mesh_writer: polygons written as OBJ come back as they were, with all their corners have") {
   const std::string faces =

@@ -88,9 +88,9 @@ struct LoadOptions {
 /// Reads a mesh and its map: from the file `sphere`, of the same connectivity, where one is named
 /// (sx sy sz, or the vertices of a bare sphere about the origin); else sx sy sz of the mesh file
 /// itself; else a map is made now.
-/// Throws: ReadError, also where the two are not one connectivity; MeshRefusal for what is no
-/// closed genus-0 mesh; NoSuchComponent for a repair that names one; NotCertifiedError where the
-/// map is not one-to-one; std::invalid_argument for `map` as `parameterize`; Cancelled.
+/// Throws: ReadError, also where the two are not one connectivity; MeshRefusal for no closed
+/// genus-0 mesh; NoSuchComponent; UnmeasurableMesh where one without area is to be mapped;
+/// NotCertifiedError where it is not one-to-one; Cancelled; and those of `parameterize`.
 MappedMesh load_mapped(const std::string& path, const LoadOptions& options = {});
 
 /// The same of a mesh that was read already, or of a source of which only `file` is filled.

@@ -34,7 +34,7 @@ MeshSource read_source(const std::string& path, const ReadOptions& options = {})
 void keep_companions(const MeshFile& file);
 
 /// What repair would do to a mesh, tried out: as it is; where that is not enough, with the
-/// component, the holes and the handles that it does not take unasked.
+/// component, the holes, the handles and the weld that it does not take unasked.
 struct RepairTrial {
   RepairOptions options;              // that mend it, or would most
   std::vector<RepairAction> actions;  // by the numbers of the file
@@ -42,7 +42,7 @@ struct RepairTrial {
   KeptParts parts;                    // those that can be chosen from; so numbered too
   std::vector<HandleLoop> handles;    // that would go; so numbered too
   bool can_mend() const { return remaining.empty(); }
-  bool mends_unasked() const;  // without choosing a component, or a larger hole or handle
+  bool mends_unasked() const;  // without choosing a component, a weld, or a larger hole or handle
 };
 /// Tries the repairs on a copy; the source stays as it is. With `keep_holes`, holes of any length
 /// are kept. Cost: that of the repairs.
@@ -74,10 +74,10 @@ MeshFile written_as_mended(const MeshSource& source, std::vector<std::string>& l
 
 /// The mesh mended, with the inspection of what it is then; `repairs`, `parts` and `notes` say what
 /// was done, by the numbers of the file.
-/// Throws: NoSuchComponent; MeshRefusal where it cannot be mapped even then.
+/// Throws: NoSuchComponent; MeshRefusal where it is no closed genus-0 mesh even then.
 MeshSource repaired(MeshSource source, const RepairOptions& options);
 
-/// Throws MeshRefusal unless the mesh can be mapped. Only then is a repair tried out.
+/// Throws MeshRefusal, with a repair tried out, unless it is closed and of genus 0, area or none.
 void require_mappable(const MeshSource& source);
 
 }  // namespace sphparam

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <optional>
 
+#include "io/attributes/appearance.h"
 #include "io/files/text_buffer.h"
 #include "io/polygons/distinct_rows.h"
 #include "sphparam/io/polygons.h"
@@ -69,10 +70,9 @@ void put_rows(TextBuffer& text, std::string_view keyword,
   }
 }
 
-/// OBJ colours are fractions; bytes become the float nearest to n / 255.
+/// OBJ colours are fractions; whole numbers become the nearest float, as n / 255 of bytes.
 float fraction(const Property& colour, Eigen::Index v) {
-  const double value = colour.values[v];
-  return static_cast<float>(colour.type == ScalarType::Uint8 ? value / 255 : value);
+  return static_cast<float>(colour.values[v] / brightest(colour.type));
 }
 
 void put_vertices(TextBuffer& text, const MeshFile& file) {
