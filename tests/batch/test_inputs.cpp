@@ -60,6 +60,36 @@ TEST_CASE("inputs: FreeSurfer's subjects, the surface that is wanted, left befor
   CHECK_THAT(inputs.shapes.front().path, Contains("rh.white.gii"));
 }
 
+TEST_CASE(
+    "inputs: subjects without the surface that is wanted are told, and refused where all are") {
+  TreeOfFiles tree({"s1/surf/lh.white", "s1/surf/lh.pial", "s2/surf/lh.white", "s3/surf/rh.white"});
+  const auto inputs = find_batch_inputs({tree.root.string()}, {"pial"});
+  CHECK(inputs.shapes.size() == 1);
+  REQUIRE(inputs.notes.size() == 1);
+  CHECK_THAT(inputs.notes.front(), Contains("2 subjects are left out (s2, s3) of 3"));
+  CHECK_THROWS_WITH(tree.ids("", "inflated"),
+                    Contains("none of 3 subjects") && Contains("--surface"));
+  CHECK(tree.ids("") == Ids{"s1_lh_white", "s2_lh_white", "s3_rh_white"});
+}
+
+TEST_CASE("inputs: in a folder, what cannot be read and what batches made is left out and told") {
+  TreeOfFiles tree({"a.ply", "work/mine.ply", "work/results/a/a.sph.ply", "work/failed/b.json",
+                    "work/staging/x/files/c.ply", "results/d.ply"});
+  fs::create_symlink("nowhere", tree.root / "gone.ply");
+  const auto inputs = find_batch_inputs({tree.root.string()});
+  CHECK(tree.ids("") == Ids{"a", "d", "mine"});
+  REQUIRE(inputs.notes.size() == 2);
+  CHECK_THAT(inputs.notes[0], Contains("gone.ply"));
+  CHECK_THAT(inputs.notes[1], Contains("work/results"));
+  CHECK(tree.ids("work/results") == Ids{"a"});
+  CHECK_THROWS_WITH(tree.ids("gone.ply"), Contains("no such file"));
+}
+
+TEST_CASE("inputs: of two files of one name, those that lie in one folder are told") {
+  TreeOfFiles tree({"1/part.stl", "2/part.obj", "2/part.stl"});
+  CHECK_THROWS_WITH(tree.ids(""), Contains("2/part.obj and") && Contains("2/part.stl"));
+}
+
 TEST_CASE("inputs: a BIDS data set has the surfaces of its subjects") {
   TreeOfFiles tree({"dataset_description.json", "sub-1/anat/sub-1_hemi-L_white.surf.gii",
                     "sub-1/anat/sub-1_hemi-L_pial.surf.gii", "other/mesh.ply"});
@@ -149,7 +179,7 @@ TEST_CASE("inputs: links that go round and names that are too long are no files,
   std::filesystem::create_symlink("round", tree.root / "in/round");
   CHECK(tree.ids("in") == Ids{"a"});
   CHECK(tree.ids("in/*") == Ids{"a"});
-  CHECK_NOTHROW(tree.ids("subjects", std::string(300, 's')));
+  CHECK_THROWS_AS(tree.ids("subjects", std::string(300, 's')), BatchInputError);
   CHECK_THROWS_AS(tree.ids(std::string(300, 'n')), BatchInputError);
 }
 

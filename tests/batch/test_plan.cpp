@@ -51,6 +51,33 @@ TEST_CASE("steps: a name that is glued to -o is the mesh that is left") {
   CHECK(files_left_by({{"map", "a.ply", "-om=1.ply"}}) == std::vector<std::string>{"m=1.ply"});
 }
 
+TEST_CASE("steps: what wrap, match, unimage and paint leave is taken by the next step") {
+  for (const char* const name : {"wrap", "match", "unimage", "paint"}) {
+    const Steps steps = complete_steps({{name, "{input}", "-o", "{id}_a.ply"}, {"map"}});
+    CHECK(steps.back() == BatchStep{"map", "{id}_a.ply", "-o", "{id}.sph.ply"});
+  }
+  const Steps atlas =
+      complete_steps({{"map"}, {"paint", "--atlas", "64", "-o", "{id}.png"}, {"export"}});
+  CHECK(atlas.back()[1] == "{id}.sph.ply");
+}
+
+TEST_CASE("steps: what leaves many files is told, unless the next step names one") {
+  CHECK_THROWS_WITH(complete_steps({{"map", "--all-components"}, {"export"}}),
+                    Contains("export: the step before it leaves a map of each component") &&
+                        Contains("{id}_0001.sph.ply"));
+  CHECK_THROWS_WITH(complete_steps({{"asset"}, {"map"}}), Contains("FOLDER/NAME.sph.ply"));
+  CHECK_NOTHROW(complete_steps({{"asset"}, {"map", "{input}"}}));
+  const Steps steps = complete_steps({{"map", "--all-components"}, {"info", "{id}_0001.sph.ply"}});
+  CHECK(steps.back() == BatchStep{"info", "{id}_0001.sph.ply"});
+}
+
+TEST_CASE("steps: streams are refused") {
+  for (const BatchStep& step :
+       {BatchStep{"map", "-o", "-"}, BatchStep{"map", "-o-"}, BatchStep{"map", "--output=-"},
+        BatchStep{"info", "--json", "-"}, BatchStep{"map", "-"}})
+    CHECK_THROWS_WITH(complete_steps({step}), Contains("stands for a stream"));
+}
+
 TEST_CASE("steps: what names its files is left alone") {
   const Steps steps = {{"map", "-o", "m.sph.ply", "{input}"},
                        {"bake", "{id}.sph.ply", "-o", "{id}_{map}.png"}};

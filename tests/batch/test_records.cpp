@@ -76,6 +76,10 @@ TEST_CASE("record: the reason is the last error of a log, with what follows a co
         "not this: a hole");
   CHECK(reason_in("sphparam: error: one\nsphparam: error: two\n") == "two");
   CHECK(reason_in("something else\n") == "something else");
+  CHECK(reason_in(
+            "  1 hole filled\na.obj: still open → b.ply\nsphparam: warning: w\n  a hint\n}\n") ==
+        "a.obj: still open");
+  CHECK(reason_in("  a detail\n") == "  a detail");
   CHECK(reason_in("").empty());
 }
 

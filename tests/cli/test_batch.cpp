@@ -250,9 +250,71 @@ TEST_CASE("batch: mistakes are told before anything is planned") {
   CHECK_THAT(complaint({"mpa"}), Contains("did you mean map?"));
   CHECK_THAT(complaint({"map", "--pin", "{pin}"}), Contains("no {pin} among"));
   CHECK_THAT(complaint({"map", "--", "--"}), Contains("without a subcommand"));
+  CHECK_THAT(complaint({"map", "-o", "{id}.stl"}), Contains("make no sense: -o: the map is"));
+  CHECK_THAT(complaint({"map", "--balance", "foo"}), Contains("--balance: expected"));
+  CHECK_THAT(complaint({"map", "--", "bake", "--map", "nope"}), Contains("there is no map nope"));
   CHECK(sphparam_program({"batch", "plan", shapes.folder / "in", "-o", shapes.work}).code == 2);
   CHECK_FALSE(fs::exists(shapes.work));
   CHECK_THAT(shapes.batch("run").err, Contains("no batch in this folder"));
+}
+
+TEST_CASE("batch: a Snakefile of the user's own is no batch's, one of a batch is replaced") {
+  const Shapes shapes(1);
+  fs::create_directories(shapes.work);
+  write_bytes(shapes.work + "/Snakefile", "rule all:\n");
+  CHECK_THAT(shapes.plan().err, Contains("would be replaced: move it"));
+  CHECK(bytes_of(shapes.work + "/Snakefile") == "rule all:\n");
+  fs::remove(shapes.work + "/Snakefile");
+  CHECK(shapes.plan().code == 0);
+  CHECK(shapes.plan({"map", "--quality", "draft"}).code == 0);
+}
+
+TEST_CASE("batch: a plan's file is its name, and marks go once another plan was made") {
+  const Shapes shapes(1);
+  REQUIRE(shapes.plan().code == 0);
+  std::string name = bytes_of(shapes.work + "/plan");
+  name.pop_back();
+  CHECK(shapes.batch("status", {"--plan", shapes.work + "/plan-" + name + ".tsv"}).code == 0);
+  const std::string mark = shapes.work + "/tasks/" + name + "/1.done";
+  fs::create_directories(fs::path(mark).parent_path());
+  write_bytes(mark, "");
+  REQUIRE(shapes.plan().code == 0);
+  CHECK(fs::exists(mark));
+  REQUIRE(shapes.plan({"map", "--quality", "draft"}).code == 0);
+  REQUIRE(shapes.plan().code == 0);
+  CHECK_FALSE(fs::exists(mark));
+}
+
+TEST_CASE("batch: what was made of an input that is bad now goes when that is recorded") {
+  const Shapes shapes(1);
+  REQUIRE(shapes.plan().code == 0);
+  REQUIRE(shapes.batch("run").code == 0);
+  CHECK(fs::exists(shapes.work + "/results/ball0"));
+  write_bytes(shapes.folder / "in/ball0.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  REQUIRE(shapes.plan().code == 0);
+  REQUIRE(shapes.batch("run").code == 0);
+  CHECK(fs::exists(shapes.work + "/failed/ball0.json"));
+  CHECK_FALSE(fs::exists(shapes.work + "/results/ball0"));
+}
+
+TEST_CASE("batch: maps of all components are certified, and their repairs counted together") {
+  const Shapes shapes(0);
+  std::string two;
+  for (const char* const at : {"0", "5"})  // octahedra that lack a face
+    for (const char* const place : {"1 0 ", "-1 0 ", "0 1 ", "0 -1 "})
+      two += std::string("v ") + place + at + "\n";
+  two += "v 0 0 1\nv 0 0 -1\nv 0 0 6\nv 0 0 4\n";
+  for (const auto& [shift, top] : {std::pair{0, 9}, {4, 11}})
+    for (const auto& [from, to] : {std::pair{1, 3}, {3, 2}, {2, 4}, {4, 1}}) {
+      const std::string i = std::to_string(from + shift), j = std::to_string(to + shift);
+      two += "f " + i + " " + j + " " + std::to_string(top) + "\n";
+      if (from < 4) two += "f " + j + " " + i + " " + std::to_string(top + 1) + "\n";
+    }
+  write_bytes(shapes.folder / "in/two.obj", two);
+  REQUIRE(shapes.plan({"map", "--repair", "--all-components"}).code == 0);
+  REQUIRE(shapes.batch("run").code == 0);
+  CHECK(shapes.record("two")["outcome"] == "certified");
+  CHECK(shapes.record("two")["repairs"] == "hole-filled 2");
 }
 
 TEST_CASE("batch: with --chunk auto three shapes are tried, and are done for good") {

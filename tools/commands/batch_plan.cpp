@@ -1,15 +1,23 @@
 // `sphparam batch plan`: shapes and steps → a manifest, and scripts for who runs it.
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <optional>
 
 #include "arguments/leading_options.h"
 #include "arguments/numbers.h"
+#include "batch/child.h"
+#include "batch/record.h"
 #include "batch/steps.h"
 #include "commands/batch.h"
 #include "console/program.h"
+#include "io/shell_word.h"
 #include "number_text.h"
 #include "sphparam/batch/plan.h"
 #include "sphparam/batch/run.h"
@@ -123,6 +131,65 @@ void require_outputs_apart(const std::vector<BatchStep>& steps, const BatchInput
   }
 }
 
+/// A folder that is gone when this is.
+class PassingFolder {
+ public:
+  PassingFolder() {
+    std::string name = (fs::temp_directory_path() / "sphparam-plan-XXXXXX").string();
+    if (!::mkdtemp(name.data())) throw WriteError(name, std::strerror(errno));
+    path_ = name;
+  }
+  ~PassingFolder() {
+    std::error_code hidden;
+    fs::remove_all(path_, hidden);
+  }
+  PassingFolder(const PassingFolder&) = delete;
+  PassingFolder& operator=(const PassingFolder&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+/// In a process of its own.
+int try_step(const BatchStep& words, const fs::path& folder) {
+  fs::current_path(folder);
+  const int log = ::open("log", O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (log < 0) return Ok;
+  ::dup2(log, STDOUT_FILENO);
+  ::dup2(log, STDERR_FILENO);
+  return run_batch_step(words, "report.json", 1);
+}
+
+/// Words that only the run of a subcommand looks at, which it does before it reads a mesh: each
+/// step is run for a shape that is nowhere. Throws: UsageMistake.
+void require_sense(const std::vector<BatchStep>& steps, const BatchInputs& inputs) {
+  const PassingFolder folder;
+  const BatchInput& shape = inputs.shapes.front();
+  const fs::path nowhere = folder.path() / "nowhere" / fs::path(shape.path).filename();
+  const BatchPlan plan{.steps = steps, .columns = inputs.columns};
+  const BatchItem item{.id = "no_such_shape", .path = nowhere.string(), .values = shape.values};
+  for (const BatchStep& words : steps_of(plan, item)) {
+    const pid_t child = start_child([&] { return try_step(words, folder.path()); });
+    if (wait_for_child(child).code != UsageError) continue;
+    const auto log = small_file((folder.path() / "log").string());
+    throw UsageMistake("the steps make no sense: " + reason_in(log.value_or("")));
+  }
+}
+
+/// Files that people have of such names are theirs.
+void require_own_scripts(const std::string& folder) {
+  for (const char* const name : {"Snakefile", "array.sbatch"}) {
+    const fs::path path = fs::path(folder) / name;
+    const auto text = small_file(path.string());
+    if (!text || text->find("made by `sphparam batch plan`") != std::string::npos) continue;
+    throw UsageMistake("-o: " + path.string() +
+                       " is none that `sphparam batch plan` made, and would be replaced: move it, "
+                       "or give the batch a folder of its own, as in -o " +
+                       shell_word((fs::path(folder) / "work").lexically_normal().string()));
+  }
+}
+
 /// Values of columns that name files beside the table or here, from the root too.
 void complete_values(BatchInputs& inputs) {
   std::error_code hidden;  // a text that is too long for a name is none
@@ -214,24 +281,29 @@ void tell(const BatchPlan& plan, const std::string& folder, std::optional<double
                     " makes fewer");
   const fs::path work(folder);
   if (!anything_left) {
-    console.say("  nothing left to do: all were tried; `sphparam batch status " + folder +
-                "` says how they ended");
+    console.say("  nothing left to do: all were tried; `sphparam batch status " +
+                shell_word(folder) + "` says how they ended");
     return;
   }
-  console.say("  sbatch " + (work / "array.sbatch").string());
-  console.say("  snakemake -s " + (work / "Snakefile").string() + " --cores all --keep-going");
-  console.say("  sphparam batch run " + folder);
+  console.say("  sbatch " + shell_word((work / "array.sbatch").string()));
+  console.say("  snakemake -s " + shell_word((work / "Snakefile").string()) +
+              " --cores all --keep-going");
+  console.say("  sphparam batch run " + shell_word(folder));
 }
 
 int run_plan(PlanArguments& arguments) try {
   const std::vector<BatchStep> steps = complete_steps(given_steps());
   Session session(arguments);
   BatchInputs inputs = find_batch_inputs(arguments.inputs, {.surface = arguments.surface});
+  for (const std::string& note : inputs.notes) session.console.warning(note);
   complete_values(inputs);
   require_outputs_apart(steps, inputs);
+  require_own_scripts(arguments.folder);
   const bool automatic = arguments.chunk == "auto";
   session.hold_signals();
-  BatchPlan plan = make_plan(inputs, {.steps = with_whole_paths(steps, inputs),
+  const std::vector<BatchStep> whole_steps = with_whole_paths(steps, inputs);
+  require_sense(whole_steps, inputs);
+  BatchPlan plan = make_plan(inputs, {.steps = whole_steps,
                                       .chunk = automatic ? 1 : chunk_of(arguments.chunk),
                                       .threads = arguments.threads,
                                       .progress = session.progress()});

@@ -8,6 +8,7 @@
 #include "arguments/numbers.h"
 #include "commands/batch.h"
 #include "console/places.h"
+#include "io/shell_word.h"
 #include "number_text.h"
 #include "sphparam/batch/results.h"
 #include "sphparam/batch/status.h"
@@ -111,10 +112,10 @@ int run_retry(ResultArguments& arguments) try {
   if (retry.tasks.empty()) return Ok;
   const std::filesystem::path work(arguments.folder);
   session.console.say("  sbatch --array=" + ranges_of(retry.tasks) + " " +
-                      (work / "array.sbatch").string());
-  session.console.say("  snakemake -s " + (work / "Snakefile").string() +
+                      shell_word((work / "array.sbatch").string()));
+  session.console.say("  snakemake -s " + shell_word((work / "Snakefile").string()) +
                       " --cores all --keep-going");
-  session.console.say("  sphparam batch run " + arguments.folder);
+  session.console.say("  sphparam batch run " + shell_word(arguments.folder));
   return Ok;
 } catch (const BatchInputError& error) {
   throw UsageMistake(error.what());

@@ -35,6 +35,7 @@ std::string shell_quoted(const std::string& text) {
 std::string slurm_script(const std::string& folder, const BatchPlan& plan,
                          const std::string& program) {
   const std::string tasks = std::to_string(plan.tasks());
+  const std::string quote = folder.find('"') == std::string::npos ? "\"" : "'";
   return "#!/bin/sh\n"
          "# " +
          std::to_string(plan.items.size()) + " items, " + std::to_string(plan.chunk) +
@@ -48,8 +49,8 @@ std::string slurm_script(const std::string& folder, const BatchPlan& plan,
          "\n"
          "#SBATCH --cpus-per-task=1\n"
          "#SBATCH --open-mode=append\n"
-         "#SBATCH --output=\"" +
-         folder + "/logs/%A_%a.log\"\n" + program_line(program) +
+         "#SBATCH --output=" +
+         quote + folder + "/logs/%A_%a.log" + quote + "\n" + program_line(program) +
          "\n"
          "exec \"$sphparam\" batch run " +
          shell_quoted(folder) + " --plan " + plan.name +

@@ -3,6 +3,7 @@
 #include "sphparam/batch/inputs.h"
 
 #include <glob.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -71,6 +72,17 @@ class Finder {
   }
 
   const std::vector<std::string>& columns() const { return columns_; }
+  /// What was left out, a line a reason.
+  std::vector<std::string> notes() const {
+    std::vector<std::string> notes = notes_;
+    if (!unreadable_.empty())
+      notes.push_back(left_out(unreadable_, "file or folder", "files or folders") +
+                      " as what cannot be read");
+    if (!of_batches_.empty())
+      notes.push_back(left_out(of_batches_, "folder", "folders") +
+                      " as what a batch made; named itself, it is looked into");
+    return notes;
+  }
   std::vector<Found>& found() { return found_; }
 
  private:
@@ -170,26 +182,63 @@ class Finder {
     if (found_.size() == before)
       throw BatchInputError(
           place.string() + ": no mesh in this folder" +
-          (is_data_set ? " is called *_" + options_.surface + ".surf.gii; see --surface" : ""));
+          (is_data_set ? " is called *_" + options_.surface + ".surf.gii; see --surface" : "") +
+          (notes().empty() ? "" : "; " + joined(notes(), "; ")));
   }
 
-  /// Subjects in the order of their names, left before right.
+  static std::string left_out(const std::vector<std::string>& names, const std::string& one,
+                              const std::string& many) {
+    std::vector<std::string> told = names;
+    told.resize(std::min(names.size(), told_at_most));
+    return counted(std::ssize(names), one, many) + (names.size() == 1 ? " is" : " are") +
+           " left out (" + joined(told) + (names.size() > told_at_most ? ", …" : "") + ")";
+  }
+
+  /// Subjects in the order of their names, left before right. Are there any?
   bool freesurfer(const fs::path& place) {
-    bool any = false;
+    std::size_t subjects = 0;
+    std::vector<std::string> without;
     for (const fs::path& subject : sorted(place)) {
       if (!is_folder(subject / "surf")) continue;
-      for (const std::string side : {"lh", "rh"}) {
-        const std::string name = side + "." + options_.surface;
-        for (const std::string ending : {".surf.gii", ".gii", ""}) {
-          const fs::path file = subject / "surf" / (name + ending);
-          if (!is_file(file)) continue;
-          add(file, shape_id_of(subject.filename().string() + "_" + side + "_" + options_.surface));
-          any = true;
-          break;
-        }
+      const std::size_t before = found_.size();
+      add_hemispheres(subject);
+      const bool has_any = found_.size() > before;
+      if (!has_any && !has_hemispheres(subject)) continue;
+      ++subjects;
+      if (!has_any) without.push_back(subject.filename().string());
+    }
+    if (subjects > 0 && without.size() == subjects)
+      throw BatchInputError(place.string() + ": none of " +
+                            counted(static_cast<long>(subjects), "subject") + " has surf/lh." +
+                            options_.surface + " or surf/rh." + options_.surface +
+                            "; see --surface");
+    if (!without.empty())
+      notes_.push_back(left_out(without, "subject", "subjects") + " of " +
+                       std::to_string(subjects) + ", without the surface " + options_.surface);
+    return subjects > 0;
+  }
+
+  void add_hemispheres(const fs::path& subject) {
+    for (const std::string side : {"lh", "rh"}) {
+      const std::string name = side + "." + options_.surface;
+      for (const std::string ending : {".surf.gii", ".gii", ""}) {
+        const fs::path file = subject / "surf" / (name + ending);
+        if (!is_file(file)) continue;
+        add(file, shape_id_of(subject.filename().string() + "_" + side + "_" + options_.surface));
+        break;
       }
     }
-    return any;
+  }
+
+  /// Of whatever surface.
+  static bool has_hemispheres(const fs::path& subject) {
+    std::error_code hidden;
+    for (fs::directory_iterator at(subject / "surf", hidden), end; at != end;
+         at.increment(hidden)) {
+      const std::string name = at->path().filename().string();
+      if (name.starts_with("lh.") || name.starts_with("rh.")) return true;
+    }
+    return false;
   }
 
   void bids(const fs::path& place) {
@@ -197,13 +246,19 @@ class Finder {
     for (const fs::path& file : files_below(place)) {
       const std::string name = file.filename().string();
       if (!name.starts_with("sub-")) continue;
-      if (name.ends_with(ending) || name.ends_with(ending + ".gz")) add(file);
+      if (name.ends_with(ending) || name.ends_with(ending + ".gz")) add_readable(file);
     }
   }
 
   void meshes_below(const fs::path& place) {
     for (const fs::path& file : files_below(place))
-      if (is_mesh_name(file.string())) add(file);
+      if (is_mesh_name(file.string())) add_readable(file);
+  }
+
+  /// One that lies in a folder with others is no reason to refuse them.
+  void add_readable(const fs::path& file) {
+    if (is_file(file) && ::access(file.c_str(), R_OK) == 0) return add(file);
+    unreadable_.push_back(file.string());
   }
 
   static std::vector<fs::path> sorted(const fs::path& place) {
@@ -216,25 +271,37 @@ class Finder {
     return entries;
   }
 
-  static std::vector<fs::path> files_below(const fs::path& place) {
+  std::vector<fs::path> files_below(const fs::path& place) {
     std::set<fs::path> seen;
     std::vector<fs::path> files;
     add_files_below(place, seen, files);
     return files;
   }
 
+  /// What a batch made is its result, not what the next one begins with.
+  static bool is_of_batch(const fs::path& folder) {
+    const fs::path batch = folder.parent_path();
+    return (folder.filename() == "results" || folder.filename() == "staging") &&
+           is_folder(batch / "results") && is_folder(batch / "staging") &&
+           is_folder(batch / "failed");
+  }
+
   /// `seen`: folders as they are called without links, which may lead back to where they lie.
-  static void add_files_below(const fs::path& place, std::set<fs::path>& seen,
-                              std::vector<fs::path>& files) {
+  void add_files_below(const fs::path& place, std::set<fs::path>& seen,
+                       std::vector<fs::path>& files) {
     std::error_code error;
     const fs::path folder = fs::canonical(place, error);
     if (error) throw ReadError(place.string(), error.message());
     if (!seen.insert(folder).second) return;
     for (const fs::path& entry : sorted(place)) {
-      if (is_folder(entry)) {
-        add_files_below(entry, seen, files);
-      } else {
+      if (!is_folder(entry)) {
         files.push_back(entry);
+      } else if (is_of_batch(entry)) {
+        if (entry.filename() == "results") of_batches_.push_back(entry.string());
+      } else if (::access(entry.c_str(), R_OK | X_OK) != 0) {
+        unreadable_.push_back(entry.string());
+      } else {
+        add_files_below(entry, seen, files);
       }
     }
   }
@@ -242,6 +309,7 @@ class Finder {
   const BatchInputOptions& options_;
   std::vector<std::string> columns_;
   std::vector<Found> found_;
+  std::vector<std::string> notes_, unreadable_, of_batches_;
 };
 
 /// The name of a file behind those of so many of the folders that it lies in.
@@ -259,14 +327,16 @@ std::string id_apart(const std::string& name, const std::map<std::string, int>& 
   return names_of_id.at(id) > 1 && id != name ? shape_id_with_hash(name) : id;
 }
 
-/// Names of files that have one: with the names of folders before them, as many as it takes for all
-/// of these; without, where one folder has them.
+/// Names of files that have one: with the names of folders before them, as many as it takes to tell
+/// the folders apart.
 std::vector<std::string> names_apart(const std::vector<Found*>& files) {
   std::vector<std::string> names(files.size(), name_of_shape(files.front()->path));
-  for (int folders = 1; files.size() > 1 && folders < 32; ++folders) {
+  std::set<fs::path> places;
+  for (const Found* const file : files) places.insert(fs::path(file->path).parent_path());
+  for (int folders = 1; places.size() > 1 && folders < 32; ++folders) {
     std::vector<std::string> longer;
     for (const Found* const file : files) longer.push_back(name_with_folders(file->path, folders));
-    if (std::set<std::string>(longer.begin(), longer.end()).size() == files.size()) return longer;
+    if (std::set<std::string>(longer.begin(), longer.end()).size() == places.size()) return longer;
   }
   return names;
 }
@@ -325,7 +395,7 @@ BatchInputs find_batch_inputs(const std::vector<std::string>& places,
   require_there(found);
   name_apart(found);
   require_distinct(found);
-  BatchInputs inputs{finder.columns(), {}};
+  BatchInputs inputs{finder.columns(), {}, finder.notes()};
   for (Found& one : found) {
     one.values.resize(inputs.columns.size());
     inputs.shapes.push_back({std::move(one.id), std::move(one.path), std::move(one.values)});

@@ -70,22 +70,41 @@ BatchRecord record_of(const ItemSetting& setting, const BatchItem& item) {
   return record;
 }
 
-/// Is any of the maps that it tells of proved?
-bool tells_of_certificate(const std::string& report) {
-  const auto json = nlohmann::json::parse(report, nullptr, false);
-  const auto certificate = json.find("certificate");
-  return certificate != json.end() && certificate->is_object() &&
+bool has_certificate(const nlohmann::json& map) {
+  const auto certificate = map.find("certificate");
+  return certificate != map.end() && certificate->is_object() &&
          certificate->value("one_to_one", false);
 }
 
-/// "hole-filled 1; handle-cut 2", as a step that mends a mesh tells it.
+/// Is any of the maps that it tells of proved? Of the parts of one mesh, all.
+bool tells_of_certificate(const std::string& report) {
+  const auto json = nlohmann::json::parse(report, nullptr, false);
+  const auto parts = json.find("parts");
+  if (parts == json.end() || !parts->is_array()) return has_certificate(json);
+  return !parts->empty() && std::ranges::all_of(*parts, has_certificate);
+}
+
+void count_repairs(const nlohmann::json& json, std::vector<std::pair<std::string, long>>& counts) {
+  const auto repairs = json.find("repairs");
+  if (repairs == json.end() || !repairs->is_array()) return;
+  for (const auto& repair : *repairs) {
+    const std::string kind = repair.value("kind", "repair");
+    auto known = std::ranges::find(counts, kind, &std::pair<std::string, long>::first);
+    if (known == counts.end()) known = counts.emplace(counts.end(), kind, 0);
+    known->second += repair.value("count", 0L);
+  }
+}
+
+/// "hole-filled 1; handle-cut 2", as a step that mends a mesh, or the parts of one, tells it.
 std::string repairs_told(const std::string& report) {
   const auto json = nlohmann::json::parse(report, nullptr, false);
-  const auto repairs = json.find("repairs");
-  if (repairs == json.end() || !repairs->is_array()) return "";
+  std::vector<std::pair<std::string, long>> counts;
+  count_repairs(json, counts);
+  const auto parts = json.find("parts");
+  if (parts != json.end() && parts->is_array())
+    for (const auto& part : *parts) count_repairs(part, counts);
   std::vector<std::string> told;
-  for (const auto& repair : *repairs)
-    told.push_back(repair.value("kind", "repair") + " " + std::to_string(repair.value("count", 0)));
+  for (const auto& [kind, count] : counts) told.push_back(kind + " " + std::to_string(count));
   return joined(told, "; ");
 }
 

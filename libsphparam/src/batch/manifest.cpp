@@ -6,6 +6,7 @@
 
 #include "batch/content_hash.h"
 #include "batch/engines.h"
+#include "batch/record.h"
 #include "batch/tables.h"
 #include "io/files/file_bytes.h"
 #include "sphparam/io/paths.h"
@@ -134,6 +135,9 @@ void save_plan(const std::string& folder, const BatchPlan& plan, const std::stri
   const std::string manifest = manifest_path(folder, plan.name);
   PendingFiles files;
   std::error_code hidden;
+  const auto latest = small_file(path("plan"));
+  if (!latest || *latest != plan.name + "\n")  // another plan's results may be there since
+    fs::remove_all(fs::path(folder) / "tasks" / plan.name, hidden);
   if (!fs::exists(manifest, hidden)) files.add(manifest, manifest_text(plan));
   const std::string whole = (fs::absolute(folder) / "").lexically_normal().parent_path().string();
   files.add(path("array.sbatch"), slurm_script(whole, plan, program));
@@ -143,7 +147,9 @@ void save_plan(const std::string& folder, const BatchPlan& plan, const std::stri
 }
 
 BatchPlan load_plan(const std::string& folder, const std::string& name) {
-  std::string wanted = name;
+  std::string wanted = fs::path(name).filename().string();
+  if (wanted.starts_with("plan-") && wanted.ends_with(".tsv"))
+    wanted = wanted.substr(5, wanted.size() - 9);
   if (wanted.empty()) {
     const std::string latest = (fs::path(folder) / "plan").string();
     std::error_code hidden;

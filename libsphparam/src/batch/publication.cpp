@@ -35,6 +35,15 @@ void replace(const std::string& staged, const std::string& target) {
   if (!rename_to(target, staged + "-old") || !rename_to(staged, target)) fail(target);
 }
 
+/// Are these results of the same steps before what failed now: of the input as it was, or of an
+/// earlier attempt? Those of other steps are another plan's.
+bool is_outdated_by(const BatchRecord& failure, const std::string& results) {
+  const auto bytes = small_file(results + "/record.json");
+  const auto head = bytes ? read_head(*bytes) : std::nullopt;
+  if (!head || head->options != failure.head.options) return false;
+  return head->planned != failure.head.planned || head->attempt < failure.head.attempt;
+}
+
 }  // namespace
 
 bool publish_results(const std::string& folder, const std::string& staged, const BatchItem& item) {
@@ -58,6 +67,9 @@ bool has_results(const std::string& folder, const BatchItem& item) {
 void publish_failure(const std::string& folder, const std::string& staged,
                      const BatchRecord& record) {
   publish_failure_bytes(folder, staged, record.id, to_json(record));
+  const std::string results = result_folder(folder, record.id);
+  if (!is_outdated_by(record, results)) return;
+  if (!rename_to(results, staged + "/outdated") && errno != ENOENT) fail(results);
 }
 
 void publish_failure_bytes(const std::string& folder, const std::string& staged,

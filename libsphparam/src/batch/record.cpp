@@ -255,6 +255,21 @@ std::string without_folders(std::string reason, const BatchItem& item) {
   return reason;
 }
 
+namespace {
+
+/// Of steps that tell what they found and no error: the last line that is neither a detail of
+/// another nor a warning.
+std::string verdict_in(const std::vector<std::string>& lines) {
+  for (auto line = lines.rbegin(); line != lines.rend(); ++line) {
+    const bool is_detail = line->empty() || line->find_first_of(" \t{}[]\"") == 0;
+    if (!is_detail && !line->starts_with("sphparam: "))
+      return line->substr(0, line->find(" → "));  // nothing of it is kept
+  }
+  return lines.empty() ? "" : lines.back();
+}
+
+}  // namespace
+
 std::string reason_in(std::string_view log) {
   constexpr std::string_view mark = "sphparam: error: ";
   std::string reason;
@@ -266,8 +281,7 @@ std::string reason_in(std::string_view log) {
       reason += " " + lines[i + 1].substr(
                           std::min(lines[i + 1].find_first_not_of(' '), lines[i + 1].size()));
   }
-  if (reason.empty() && !lines.empty()) reason = lines.back();
-  return reason;
+  return reason.empty() ? verdict_in(lines) : reason;
 }
 
 }  // namespace sphparam

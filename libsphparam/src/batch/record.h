@@ -82,7 +82,7 @@ std::string failure_path(const std::string& folder, const std::string& id);
 /// A reason as people read it: the input by its name alone.
 std::string without_folders(std::string reason, const BatchItem& item);
 
-/// What failed, in a line: the last error in a log.
+/// What failed, in a line: the last error in a log, or else what the last step says it found.
 std::string reason_in(std::string_view log);
 
 /// The bytes of a small file; nothing where there is none. Throws: ReadError.

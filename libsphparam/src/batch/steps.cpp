@@ -16,15 +16,18 @@ namespace {
 /// What a subcommand writes where nobody says so.
 struct Subcommand {
   std::string_view name;
-  std::string_view option;  // that says where; empty: it needs none
-  std::string_view ending;
+  std::string_view option;   // that says where; empty: it needs none
+  std::string_view ending;   // empty: it has to be said
   bool leaves_mesh = false;  // that the next step may take
 };
 
-constexpr std::array<Subcommand, 13> subcommands = {{{"map", "-o", ".sph.ply", true},
+constexpr std::array<Subcommand, 16> subcommands = {{{"map", "-o", ".sph.ply", true},
                                                      {"repair", "-o", "_repaired.ply", true},
                                                      {"remesh", "-o", "_remesh.sph.ply", true},
-                                                     {"paint", "-o", "_painted.ply"},
+                                                     {"wrap", "-o", "", true},
+                                                     {"match", "-o", "", true},
+                                                     {"unimage", "-o", "", true},
+                                                     {"paint", "-o", "_painted.ply", true},
                                                      {"bake", "-o", "_{map}.png"},
                                                      {"export", "-o", ".glb"},
                                                      {"render", "-o", ".png"},
@@ -76,13 +79,38 @@ std::string written_to(const BatchStep& step, std::string_view option) {
 /// Does it say what it takes: {input} anywhere, {id} in a word that is no option's value, or the
 /// mesh that the steps before left?
 bool takes_input(const BatchStep& step, const std::string& mesh) {
-  if (step.size() > 1 && step[1] == mesh) return true;
+  if (step.size() > 1 && !mesh.empty() && step[1] == mesh) return true;
   for (std::size_t i = 1; i < step.size(); ++i) {
     const bool is_value = i > 1 && step[i - 1].starts_with('-');
     if (has_placeholder(step[i], "input")) return true;
     if (!is_value && !step[i].starts_with('-') && has_placeholder(step[i], "id")) return true;
   }
   return false;
+}
+
+/// What a step that leaves no mesh of one name has instead, and how the next one may take it: as in
+/// "files of its components: {id}_0001.sph.ply is the first". Empty: it leaves one, or none.
+std::string several_left_by(const BatchStep& step) {
+  if (step.front() == "asset") return "a folder of files: FOLDER/NAME.sph.ply of `-o FOLDER`";
+  if (step.front() == "map" && has_option(step, "--all-components"))
+    return "a map of each component: {id}_0001.sph.ply of `-o {id}.sph.ply`";
+  return "";
+}
+
+bool leaves_mesh(const Subcommand& subcommand, const BatchStep& step) {
+  const bool is_image = step.front() == "paint" && has_option(step, "--atlas");
+  return subcommand.leaves_mesh && !is_image;
+}
+
+/// Steps are not joined by pipes: what goes to standard output would be lost in their log.
+void require_no_stream(const BatchStep& step) {
+  for (const std::string& word : step) {
+    const bool is_value = word.starts_with("--") && word.ends_with("=-");
+    if (word != "-" && word != "-o-" && !is_value) continue;
+    throw BatchInputError(joined(step, " ") + ": " + word +
+                          " stands for a stream, which steps of a batch have none of; a name, as "
+                          "in `-o {id}.sph.ply` or `--json {id}.json`, is a file of its results");
+  }
 }
 
 }  // namespace
@@ -101,20 +129,31 @@ bool is_foreign(const std::string& name) { return name == "map" || name == "n"; 
 
 std::vector<BatchStep> complete_steps(std::vector<BatchStep> steps) {
   if (steps.empty()) throw BatchInputError("no step: what is to be done with each shape?");
-  std::string mesh = "{input}";
+  std::string mesh = "{input}", several;
   for (BatchStep& step : steps) {
     if (step.empty()) throw BatchInputError("a step without a subcommand: -- twice");
     if (std::ranges::count(not_in_batches, step.front()) > 0)
       throw BatchInputError(step.front() + " cannot be a step of a batch");
-    if (!takes_input(step, mesh)) step.insert(step.begin() + 1, mesh);
+    require_no_stream(step);
+    const bool takes = takes_input(step, mesh);
+    if (!takes && mesh.empty())
+      throw BatchInputError(step.front() + ": the step before it leaves " + several +
+                            "; its name right behind `" + step.front() +
+                            "` says what is taken, and {input} is the shape as it came");
+    if (!takes) step.insert(step.begin() + 1, mesh);
+    const std::string left = several_left_by(step);
+    if (!left.empty()) {
+      several = left;
+      mesh.clear();
+    }
     const Subcommand* const subcommand = known(step.front());
     if (!subcommand) continue;
     const bool says_where = subcommand->option.empty() || has_option(step, subcommand->option);
-    if (!says_where) {
+    if (!says_where && !subcommand->ending.empty()) {
       step.emplace_back(subcommand->option);
       step.push_back("{id}" + std::string(subcommand->ending));
     }
-    if (subcommand->leaves_mesh) mesh = written_to(step, subcommand->option);
+    if (left.empty() && leaves_mesh(*subcommand, step)) mesh = written_to(step, subcommand->option);
   }
   return steps;
 }

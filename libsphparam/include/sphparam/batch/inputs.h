@@ -24,6 +24,7 @@ struct BatchInput {
 struct BatchInputs {
   std::vector<std::string> columns = {};  // of tables, beside path and id
   std::vector<BatchInput> shapes = {};    // in the order of the places, folders sorted by name
+  std::vector<std::string> notes = {};    // what was left out of folders, a line a reason
 };
 
 struct BatchInputOptions {
@@ -38,7 +39,8 @@ struct BatchInputOptions {
 ///   whose values stand for {NAME} in the options of the batch;
 /// - a list, any other file of text or "-": a path a line, '#' begins a remark;
 /// - a folder: subjects of FreeSurfer (SUBJECT/surf/lh.white, rh.white; also as .gii), a BIDS data
-///   set (dataset_description.json; sub-*/**/*_white.surf.gii), else all meshes in it and below.
+///   set (dataset_description.json; sub-*/**/*_white.surf.gii), else all meshes in it and below,
+///   but for hidden ones, those that cannot be read, and the results of batches that lie in it.
 /// Paths in lists and tables are relative to the file they stand in, or else to the current folder.
 /// An id is the table's, or else the name of the file without its endings, with the names of its
 /// folders before it where two have one name, '_' for what is no letter or digit, and a hash where
