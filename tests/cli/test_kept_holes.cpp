@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -99,6 +100,31 @@ TEST_CASE("kept holes: a share that is asked for is kept to, without a map they 
   const Ended refused = sphparam_program({"map", bowl.mesh, "-o", other});
   CHECK(refused.code == 4);
   CHECK_THAT(refused.err, Contains("With --keep-holes holes stay holes"));
+}
+
+TEST_CASE("kept holes: a table of remesh marks rows that lie in them, or leaves them out") {
+  const MappedBowl bowl;
+  const std::string table = bowl.folder / "t.csv";
+  std::vector<std::string> words = {"remesh", bowl.map, "--grid", "healpix:16", "--csv", table};
+  const auto rows = [](const std::string& text) {
+    return std::count(text.begin(), text.end(), '\n') - 1;
+  };
+  const Ended marked = sphparam_program(words);
+  INFO(marked.err);
+  REQUIRE(marked.code == 0);
+  const std::string all = bytes_of(table);
+  CHECK_THAT(all, Catch::StartsWith("vertex,theta,phi,x,y,z,filler\n"));
+  CHECK(rows(all) == 3072);
+  long in_holes = 0;
+  for (size_t at = 0; (at = all.find(",1\n", at)) != std::string::npos; ++at) ++in_holes;
+  CHECK(in_holes > 1);
+  CHECK_THAT(marked.err, Contains("t.csv: " + std::to_string(in_holes) + " rows lie in holes: 1 "));
+  words.insert(words.end(), {"--holes", "drop"});
+  const Ended left = sphparam_program(words);
+  CHECK(left.code == 0);
+  CHECK_THAT(left.err, Contains(std::to_string(in_holes) + " rows lie in holes: left out"));
+  CHECK(rows(bytes_of(table)) == 3072 - in_holes);
+  CHECK_THAT(bytes_of(table), Catch::StartsWith("vertex,theta,phi,x,y,z\n"));
 }
 
 TEST_CASE("kept holes: bake leaves their texels transparent, and has a mask of them") {

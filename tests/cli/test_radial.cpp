@@ -148,6 +148,22 @@ TEST_CASE("bake --convention gis: how far a map is from the body's is told of bo
 }
 
 TEST_CASE(
+    "remesh --csv --degrees: longitudes of another map than the body's are told as bake does") {
+  const Folder folder;
+  const auto told = [&](const std::string& mesh) {
+    const Ended ended = sphparam_program(
+        {"remesh", mesh, "--grid", "ico:1", "--csv", folder / "a.csv", "--degrees"}, body());
+    INFO(ended.err);
+    CHECK(ended.code == 0);
+    return ended.err.find("° from those of the body") != std::string::npos;
+  };
+  CHECK(told("-"));
+  const std::string map = folder / "map.sph.ply";
+  REQUIRE(sphparam_program({"map", "-", "-o", map, "--method", "radial"}, body()).code == 0);
+  CHECK_FALSE(told(map));
+}
+
+TEST_CASE(
     "bake: how far a map is from the body's is told about the given centre, as map tells it") {
   const Folder folder;
   const std::string mesh = folder / "body.obj", map = folder / "a.sph.ply",

@@ -11,6 +11,7 @@
 #include "sphparam/parameterize.h"
 #include "sphparam/remesh/remesh.h"
 #include "sphparam/sphere/certificate.h"
+#include "sphparam/sphere/radial_directions.h"
 #include "support/mapped.h"
 #include "support/test_meshes.h"
 
@@ -397,4 +398,40 @@ TEST_CASE("remesh: areas below 0 or not numbers, and unknown ways of sampling, a
   }
   CHECK_THROWS_AS(remesh(source, grid, {.sample = static_cast<SampleMode>(9)}),
                   std::invalid_argument);
+}
+
+TEST_CASE("remesh: of a radial map, vertices are in their directions from its centre") {
+  const Vector3 centre(5, 6, 7);
+  TriangleMesh mesh = icosphere(2);
+  for (Vertex v = 0; v < mesh.vertex_count(); ++v) {
+    const Vector3 p = mesh.position(v);
+    mesh.positions.row(v) =
+        centre + (1 + 0.3 * p.x() * p.y()) * Vector3(9 * p.x(), 3 * p.y(), p.z());
+  }
+  MeshFile file;
+  file.mesh = mesh;
+  Property x{"x_again", ScalarType::Float64, {}};
+  for (Vertex v = 0; v < mesh.vertex_count(); ++v) x.values.push_back(mesh.positions(v, 0));
+  file.vertex_properties.push_back(x);
+  const MappedMesh body({.file = file,
+                         .map = radial_directions(mesh, centre),
+                         .provenance = {{"radial-centre", "5 6 7"}, {"radial-movement", "0"}}});
+  const auto off = [&](const Remeshed& made) {
+    const Points from_centre = made.mesh().positions.rowwise() - centre.transpose();
+    return (from_centre.rowwise().normalized() - made.map().points.rowwise().normalized())
+        .rowwise()
+        .norm()
+        .maxCoeff();
+  };
+  for (const char* grid : {"healpix:8", "cube:5"}) {
+    INFO(grid);
+    const Remeshed made = remesh(body, grid_named(grid));
+    CHECK(off(made) < 1e-12);
+    const auto& again = made.file().vertex_properties.at(0).values;
+    for (Vertex v = 0; v < made.mesh().vertex_count(); ++v)
+      CHECK(again[static_cast<size_t>(v)] == Approx(made.mesh().positions(v, 0)).margin(1e-12));
+  }
+  CHECK(remesh(body, like(mesh, body.map())).mesh().positions == mesh.positions);
+  const MappedMesh unsaid = mapped(file, body.map());  // along the sphere's flat triangles
+  CHECK(off(remesh(unsaid, grid_named("healpix:8"))) > 0.01);
 }

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "sphparam/io/fillers.h"
 #include "sphparam/remesh/remesh.h"
 #include "support/mapped.h"
 
@@ -40,4 +41,28 @@ TEST_CASE("sample table: in degrees longitude goes from -180 to 180 and latitude
   for (const char* row :
        {"\n0,0,0,0.5,", "\n1,180,0,-0.5,", "\n2,90,0,", "\n3,-90,0,", "\n4,0,90,", "\n5,0,-90,"})
     CHECK_THAT(text, Catch::Contains(row));
+}
+
+TEST_CASE("sample table: vertices in holes have a mark, or no row") {
+  const FillerMarks in_hole = {0, 1, 0, 0, 0, 0};
+  const std::string marked = sample_table(octahedron(), TableAngles::Degrees, {in_hole});
+  CHECK_THAT(marked, Catch::StartsWith("vertex,lon,lat,x,y,z,\"thick, \"\"mm\"\"\",parcel,filler\n"
+                                       "0,0,0,0.5,0,0,0.1,7,0\n"
+                                       "1,180,0,-0.5,0,0,1,8,1\n"
+                                       "2,90,0,"));
+  const std::string left = sample_table(octahedron(), TableAngles::Degrees, {in_hole, true});
+  CHECK_THAT(left, Catch::StartsWith("vertex,lon,lat,x,y,z,\"thick, \"\"mm\"\"\",parcel\n"
+                                     "0,0,0,0.5,0,0,0.1,7\n"
+                                     "2,90,0,"));
+}
+
+TEST_CASE(
+    "sample table: a direction is in a hole where no surface is, of which its rim is a part") {
+  MeshFile file = octahedron().file();
+  const SphereMap map{file.mesh.positions * 2};
+  const Points directions =
+      (Points(5, 3) << 1, 1, 1, 1, 0, 0, 1, 1, 0, -1, 1, 1, 2, 1, 1).finished();
+  CHECK(in_holes(tests::mapped(file, map), directions).empty());
+  mark_fillers(file, {1, 0, 0, 0, 0, 0, 0, 0});
+  CHECK(in_holes(tests::mapped(file, map), directions) == FillerMarks{1, 0, 0, 0, 1});
 }

@@ -86,7 +86,7 @@ void declare_remesh_options(Declaration& command, RemeshArguments& arguments) {
       .choice("--holes", arguments.holes,
               {{"keep", FillersInFile::Kept}, {"drop", FillersInFile::Left}},
               "What closes holes of the mesh: keep it or leave it out (default: kept and marked in "
-              "a map, else left out)")
+              "a map and in --csv, else left out)")
       .text("--transfer", arguments.transfer, "NAMES",
             "What to carry, with commas between: all, none, color, normal, uv, material, or names "
             "of properties")
@@ -99,9 +99,11 @@ void declare_remesh_options(Declaration& command, RemeshArguments& arguments) {
                {"cell", SampleMode::Cell},
                {"barycentric", SampleMode::Barycentric},
                {"adap-bary-area", SampleMode::AdapBaryArea}},
-              "point: the surface at a direction; cell: its mean, weighted by area, over the cell "
-              "where the grid is coarser than the mesh; barycentric, adap-bary-area: positions as "
-              "point, what vertices have by wb_command's methods of these names (default: point)")
+              "point: the surface at a direction; cell: its mean over the grid's triangles about "
+              "the vertex, weighted by area and by nearness (1 at the vertex, 0 at their far "
+              "sides), where the grid is coarser than the mesh; barycentric, adap-bary-area: "
+              "positions as point, what vertices have by wb_command's methods of these names "
+              "(default: point)")
       .data(arguments.data)
       .text("--areas", arguments.areas, "SOURCE,GRID",
             "With --sample adap-bary-area: surfaces, or files of areas a vertex, of the mesh's and "

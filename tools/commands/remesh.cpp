@@ -277,6 +277,22 @@ void add_images(PendingFiles& files, const RemeshArguments& arguments,
   }
 }
 
+/// Warns of what the directions of a table are not, and of rows that lie in holes.
+std::string table_of(const RemeshArguments& arguments, const MappedMesh& mapped,
+                     const Remeshed& made, Session& session) {
+  if (arguments.degrees) tell_longitudes(mapped, Convention::Gis, false, std::nullopt, session);
+  const TableHoles holes{in_holes(mapped, made.map().points, session.threads()),
+                         arguments.holes == FillersInFile::Left};
+  if (const auto count = std::count(holes.in_hole.begin(), holes.in_hole.end(), 1); count > 0) {
+    session.console.say("  " + output_name(arguments.csv) + ": " +
+                        counted(count, "row lies in a hole", "rows lie in holes") +
+                        (holes.left_out ? ": left out"
+                                        : ": 1 in the column filler; --holes drop leaves them "
+                                          "out"));
+  }
+  return sample_table(made, arguments.degrees ? TableAngles::Degrees : TableAngles::Radians, holes);
+}
+
 RemeshOutputs outputs_of(const RemeshArguments& arguments, const RemeshRequests& requests) {
   return {.mesh = arguments.output,
           .limit_mesh = arguments.limit_output,
@@ -334,9 +350,7 @@ int run_remesh(RemeshArguments& arguments) {
   add_data(requests, last_data, finest.mesh, session);
   add_images(session.files, arguments, requests, finest.mesh);
   if (!arguments.csv.empty())
-    session.files.add(
-        arguments.csv,
-        sample_table(finest.mesh, arguments.degrees ? TableAngles::Degrees : TableAngles::Radians));
+    session.files.add(arguments.csv, table_of(arguments, mapped, finest.mesh, session));
   record.seconds = session.stopwatch.seconds();
   session.add_report([&] { return to_json(record); });
   session.publish();

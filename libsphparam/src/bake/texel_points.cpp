@@ -1,11 +1,11 @@
 #include "bake/texel_points.h"
 
-#include <cmath>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
 
 #include "bake/projected_surface.h"
+#include "sphere/move_to_surface.h"
 #include "sphparam/io/planetocentric.h"
 #include "sphparam/sphere/spherical_coordinates.h"
 
@@ -34,13 +34,6 @@ Eigen::Matrix3d rays(const Triangles& triangles, const Points& points, Face f) {
 
 TexelRun single(const SurfacePoint& point, int row, int column) {
   return {point.face, row, column, 1, {point.barycentric[0], point.barycentric[1]}, {0, 0}, {0, 0}};
-}
-
-/// λ of the triangle with corners at these distances along its rays, from λ of the rays.
-void move_to_surface(const Eigen::Matrix3d& corners, Vector3& weights) {
-  const Vector3 moved = weights.cwiseQuotient(Vector3(corners.colwise().norm()));
-  const double sum = moved.sum();
-  if (std::isfinite(sum) && sum > 0) weights = moved / sum;
 }
 
 }  // namespace
@@ -119,7 +112,7 @@ SurfaceRun TexelFinder::located(const Vector3& q, const Vector3& east, const Vec
   const Eigen::Matrix3d corners =
       rays(source.mesh().triangles,
            seen_from_centre_ ? *seen_from_centre_ : source.mapped->map().points, point.face);
-  if (seen_from_centre_) move_to_surface(corners, point.barycentric);
+  if (seen_from_centre_) move_to_surface(corners.colwise().norm(), point.barycentric);
   const auto [step, below] = derivatives(corners, point, q, east, south);
   return {point.face, 1, point.barycentric, step, below};
 }

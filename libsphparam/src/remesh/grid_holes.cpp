@@ -4,6 +4,8 @@
 #include <map>
 
 #include "mesh/union_find.h"
+#include "remesh/faces_of_point.h"
+#include "sphparam/remesh/remesh.h"
 
 // First vertices where fans touch get fillers all around; then surface that is not of the largest
 // piece becomes fillers; then of each hole's pieces the largest stays. No step undoes the one
@@ -110,6 +112,17 @@ FillerMarks tidy_fillers(const Topology& grid, const Triangulation& cut,
   keep_largest_surface(grid, fillers);
   keep_largest_of_holes(grid, holes, fillers);
   return fillers;
+}
+
+FillerMarks in_holes(const MappedMesh& source, const Points& directions, int threads) {
+  const FillerMarks& fillers = source.fillers();
+  if (fillers.empty()) return {};
+  FillerMarks marks;
+  marks.reserve(at(static_cast<int>(directions.rows())));
+  const auto is_surface = [&](Face f) { return fillers[at(f)] == 0; };
+  for (const SurfacePoint& place : source.locator().locate_all(directions, threads))
+    marks.push_back(any_face_of(place, source.topology(), is_surface) ? 0 : 1);
+  return marks;
 }
 
 }  // namespace sphparam

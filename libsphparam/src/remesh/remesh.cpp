@@ -17,8 +17,10 @@
 #include "remesh/resampling.h"
 #include "remesh/seams.h"
 #include "remesh/wanted_values.h"
+#include "sphere/move_to_surface.h"
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/io/fillers.h"
+#include "sphparam/io/planetocentric.h"
 #include "sphparam/parallel.h"
 #include "sphparam/remesh/adaptation.h"
 #include "sphparam/sphere/sphere_locator.h"
@@ -45,6 +47,24 @@ std::vector<SurfacePoint> locate(const SphereLocator& locator, const Points& dir
         options.threads);
   }
   return points;
+}
+
+/// Of a radial map: from where the map's triangles have directions, which are flat on the sphere,
+/// to where rays from its centre meet the mesh. Edges stay edges.
+void move_to_rays(const MappedMesh& source, std::vector<SurfacePoint>& points, int threads) {
+  const auto radial = planetocentric(source.provenance());
+  if (!radial) return;
+  const TriangleMesh& mesh = source.mesh();
+  const VectorX distances =
+      (mesh.positions.rowwise() - radial->centre.transpose()).rowwise().norm();
+  parallel_for(std::ssize(points), grain, threads, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i) {
+      SurfacePoint& point = points[static_cast<size_t>(i)];
+      Vector3 of_corners;
+      for (int k = 0; k < 3; ++k) of_corners[k] = distances[mesh.triangles(point.face, k)];
+      move_to_surface(of_corners, point.barycentric);
+    }
+  });
 }
 
 /// The middle of each face, as a direction of any length.
@@ -79,6 +99,7 @@ class Transfer {
         locator_(source.locator()) {
     const Stopwatch stopwatch;
     points_ = locate(locator_, grid.directions, "locate", options);
+    move_to_rays(source, points_, options.threads);
     locate_seconds = stopwatch.seconds();
     if (options.sample == SampleMode::Cell) {
       report(options.progress, "gather", 0);

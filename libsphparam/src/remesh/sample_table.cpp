@@ -1,6 +1,7 @@
 #include <charconv>
 #include <numbers>
 
+#include "sphparam/io/fillers.h"
 #include "sphparam/remesh/remesh.h"
 #include "sphparam/sphere/spherical_coordinates.h"
 
@@ -32,17 +33,21 @@ SphericalCoordinates longitude_and_latitude(SphericalCoordinates place) {
 
 }  // namespace
 
-std::string sample_table(const MappedMesh& mesh, TableAngles angles) {
+std::string sample_table(const MappedMesh& mesh, TableAngles angles, const TableHoles& holes) {
   const MeshFile& file = mesh.file();
   constexpr size_t expected_bytes = 100;  // of a row
   const bool in_degrees = angles == TableAngles::Degrees;
   std::string text = in_degrees ? "vertex,lon,lat,x,y,z" : "vertex,theta,phi,x,y,z";
   for (const Property& property : file.vertex_properties)
     text.append(",").append(quoted_name(property.name));
+  const bool marked = !holes.in_hole.empty() && !holes.left_out;
+  if (marked) text.append(",").append(filler_property);
   text += "\n";
   const auto count = static_cast<size_t>(file.mesh.vertex_count());
   text.reserve(text.size() + expected_bytes * count);
   for (size_t v = 0; v < count; ++v) {
+    const bool in_hole = !holes.in_hole.empty() && holes.in_hole[v] == 1;
+    if (in_hole && holes.left_out) continue;
     const auto row = static_cast<Vertex>(v);
     SphericalCoordinates place = to_spherical(mesh.map().point(row));
     if (in_degrees) place = longitude_and_latitude(place);
@@ -56,6 +61,7 @@ std::string sample_table(const MappedMesh& mesh, TableAngles angles) {
       text += ',';
       put(text, property.values[v]);
     }
+    if (marked) text += in_hole ? ",1" : ",0";
     text += '\n';
   }
   return text;

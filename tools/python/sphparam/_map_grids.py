@@ -41,7 +41,8 @@ class MapGrids(MapFacts):
             ``"ico:6"``, ``"ico:f=40"``, ``"octa:257"``, ``"cube:32"``, ``"uv:512x256"``,
             ``"healpix:64"``; or another map, whose connectivity the result gets.
         sample
-            ``"point"``: the surface at the direction; ``"cell"``: its mean over the cell. What vertices
+            ``"point"``: the surface at the direction; ``"cell"``: its mean over the
+            triangles of the grid about a vertex, a tent, by area. What vertices
             have as Workbench resamples it: ``"barycentric"``, ``"adap-bary-area"``.
         transfer
             What to carry: ``"all"``, or names of values; ``[]``: positions alone.

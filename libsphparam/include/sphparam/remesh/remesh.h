@@ -67,7 +67,8 @@ class Remeshed : public MappedMesh {
 };
 
 /// Resamples a mapped mesh: each vertex of the grid gets the point of the surface that the map
-/// takes to its direction, and what the surface has there.
+/// takes to its direction, and what the surface has there: of a radial map, what a ray from its
+/// centre in that direction meets.
 ///
 /// Floating numbers and colours are interpolated, normals made unit again, whole numbers are labels
 /// and never mixed. Texture coordinates and normals of corners come from the side of a seam that
@@ -88,8 +89,19 @@ Remeshed remesh(const MappedMesh& source, const GridSpec& grid, const RemeshOpti
 /// latitude in degrees.
 enum class TableAngles { Radians, Degrees };
 
+/// Of each direction: 1 where it lies in a hole of the source that a filler closes, whose rim is
+/// surface. Empty: the source has no fillers. Throws: std::invalid_argument for a direction that is
+/// zero or not finite.
+FillerMarks in_holes(const MappedMesh& source, const Points& directions, int threads = 0);
+
+struct TableHoles {
+  FillerMarks in_hole = {};  // of each vertex; empty: none is
+  bool left_out = false;     // their rows; else a last column "filler" has 1 in them
+};
+
 /// Comma-separated values, a row a vertex: its number, theta and phi (or lon and lat), x y z, and
 /// every property of vertices; shortest text that reads back the same.
-std::string sample_table(const MappedMesh& mesh, TableAngles angles = TableAngles::Radians);
+std::string sample_table(const MappedMesh& mesh, TableAngles angles = TableAngles::Radians,
+                         const TableHoles& holes = {});
 
 }  // namespace sphparam
