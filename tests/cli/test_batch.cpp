@@ -252,6 +252,7 @@ TEST_CASE("batch: mistakes are told before anything is planned") {
   CHECK_THAT(complaint({"map", "--", "--"}), Contains("without a subcommand"));
   CHECK_THAT(complaint({"map", "-o", "{id}.stl"}), Contains("make no sense: -o: the map is"));
   CHECK_THAT(complaint({"map", "--balance", "foo"}), Contains("--balance: expected"));
+  CHECK_THAT(complaint({"map", "--pin", "nowhere.txt"}), Contains("nowhere.txt: no such file"));
   CHECK_THAT(complaint({"map", "--", "bake", "--map", "nope"}), Contains("there is no map nope"));
   CHECK(sphparam_program({"batch", "plan", shapes.folder / "in", "-o", shapes.work}).code == 2);
   CHECK_FALSE(fs::exists(shapes.work));

@@ -4,11 +4,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <optional>
+#include <string_view>
 
 #include "arguments/leading_options.h"
 #include "arguments/numbers.h"
@@ -161,6 +163,23 @@ int try_step(const BatchStep& words, const fs::path& folder) {
   return run_batch_step(words, "report.json", 1);
 }
 
+/// Files that people write by hand, and no step. Throws: UsageMistake where one is not there.
+void require_written_files(const BatchStep& words) {
+  constexpr std::array<std::string_view, 2> options = {"--pin", "--landmarks"};
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    for (const std::string_view option : options) {
+      std::string file;
+      if (words[i] == option && i + 1 < words.size()) file = words[i + 1];
+      if (words[i].starts_with(std::string(option) + "="))
+        file = words[i].substr(option.size() + 1);
+      std::error_code hidden;
+      if (file.empty() || fs::exists(file, hidden)) continue;
+      throw UsageMistake(words.front() + " " + std::string(option) + ": " + file +
+                         ": no such file; files of options are found where `batch plan` is typed");
+    }
+  }
+}
+
 /// Words that only the run of a subcommand looks at, which it does before it reads a mesh: each
 /// step is run for a shape that is nowhere. Throws: UsageMistake.
 void require_sense(const std::vector<BatchStep>& steps, const BatchInputs& inputs) {
@@ -170,6 +189,7 @@ void require_sense(const std::vector<BatchStep>& steps, const BatchInputs& input
   const BatchPlan plan{.steps = steps, .columns = inputs.columns};
   const BatchItem item{.id = "no_such_shape", .path = nowhere.string(), .values = shape.values};
   for (const BatchStep& words : steps_of(plan, item)) {
+    require_written_files(words);
     const pid_t child = start_child([&] { return try_step(words, folder.path()); });
     if (wait_for_child(child).code != UsageError) continue;
     const auto log = small_file((folder.path() / "log").string());
