@@ -61,14 +61,16 @@ void require_exact_labels(const PlannedImage& image) {
                    (type == SampleType::Float ? "" : "; float holds more, in a .tif or .exr"));
 }
 
-/// Whole steps of an integer type from label to label, so that what is read is a whole number, too.
+/// From label to label as large a power of two of an integer type's steps as fits: range / full
+/// scale is one exactly then, so that what is read by scale and offset is the label, no less.
 void spread_labels(PlannedImage& image) {
   if (image.field.kind != FieldKind::Label || !image.field.range ||
       image.field.proper_channels() > 1 || !is_integer(image.file.sample_type))
     return;
   auto& [least, greatest] = *image.field.range;
   const double full = exact_numbers(image.file.sample_type);
-  greatest = least + full / std::floor(full / std::max(greatest - least, 1.0));
+  const int halvings = std::ilogb(full / std::max(greatest - least, 1.0));
+  greatest = least + std::ldexp(full, -halvings);
 }
 
 void require_channels(const PlannedImage& image) {
