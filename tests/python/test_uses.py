@@ -247,6 +247,14 @@ def test_a_mesh_on_a_grid_has_the_grids_directions(mapped, grid):
     assert quads == (grid[:2] in ("cu", "uv", "he"))
 
 
+def test_colours_by_their_name_are_no_labels(mapped):
+    low = mapped.remesh("ico:2")
+    there = mapped.resample("color", low.points)
+    assert there.dtype == np.uint8 and there.shape == low.values["color"].shape
+    assert np.abs(there.astype(int) - low.values["color"].astype(int)).max() <= 1
+    assert (mapped.resample(mapped.values["label"], low.points) == low.values["label"]).all()
+
+
 def test_the_grid_of_another_map_gives_its_connectivity(mapped):
     other = sp.with_sphere(sphere(3), sphere(3)[0])
     low = mapped.remesh(other)

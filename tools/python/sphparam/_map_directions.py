@@ -40,7 +40,8 @@ class MapDirections(MapFacts):
         """Values of the vertices at directions.
 
         Floating numbers are interpolated linearly in each triangle; whole numbers and truth values are
-        labels: the one whose corners weigh most together. NaN spreads to where it has weight.
+        labels: the one whose corners weigh most together. NaN spreads to where it has weight. Whole
+        numbers by the name ``"color"`` are no labels: interpolated as stored, and rounded.
 
         Parameters
         ----------
@@ -49,6 +50,7 @@ class MapDirections(MapFacts):
         directions
             (n, 3), finite, of any length but 0.
         """
+        is_colour = isinstance(values, str) and values == "color"
         if isinstance(values, str):
             values = self.vertices if values == "vertices" else self._named(values)
         table = _arrays.unmasked(values, "values")
@@ -58,11 +60,11 @@ class MapDirections(MapFacts):
         face, weights = self.locate(directions, threads=threads)
         corners = self.faces[face]
         weights = weights.reshape(weights.shape + (1,) * (table.ndim - 1))
-        if table.dtype.kind in "iub":
+        if table.dtype.kind in "iub" and not is_colour:
             return heaviest(table[corners], weights)
         parts = np.where(weights == 0, 0, table[corners]) * weights
-        mixed: Array = parts.sum(axis=1).astype(table.dtype, copy=False)
-        return mixed
+        mixed: Array = parts.sum(axis=1)
+        return (np.rint(mixed) if table.dtype.kind in "iu" else mixed).astype(table.dtype, copy=False)
 
     def _named(self, name: str) -> Array:
         if name not in self.values:
