@@ -11,6 +11,10 @@ namespace {
 
 constexpr auto between_looks = std::chrono::milliseconds(50);
 
+/// How long Python waits, as it ends, for a callback of a thread to come back: it may wait for what
+/// never comes.
+constexpr auto longest_callback = std::chrono::seconds(3);
+
 /// Threads of calls that were left by Ctrl-C. They end at their next report of progress, or the
 /// next piece of a loop.
 class LeftCalls {
@@ -50,18 +54,32 @@ class OpenCalls {
     calls_.erase(&call);
     changed_.notify_all();
   }
-  /// Stops them, and those that would follow, and waits until the last one is over.
+  void begin_callback(CallState& call) {
+    const std::lock_guard lock(mutex_);
+    in_callback_.insert(&call);
+  }
+  void end_callback(CallState& call) {
+    const std::lock_guard lock(mutex_);
+    in_callback_.erase(&call);
+  }
+  /// Stops them, and those that would follow, and waits until the last one is over, or no more are
+  /// left than callbacks that do not come back.
   void stop() {
     std::unique_lock lock(mutex_);
     ending_ = std::this_thread::get_id();
     for (CallState* const call : calls_) call->cancel();
-    changed_.wait(lock, [this] { return calls_.empty(); });
+    const auto enough = std::chrono::steady_clock::now() + longest_callback;
+    const auto is_over = [&] {
+      return calls_.empty() ||
+             (calls_ == in_callback_ && std::chrono::steady_clock::now() > enough);
+    };
+    while (!is_over()) changed_.wait_for(lock, between_looks);
   }
 
  private:
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::set<CallState*> calls_;
+  std::set<CallState*> calls_, in_callback_;
   std::optional<std::thread::id> ending_;
 };
 
@@ -77,6 +95,18 @@ class OpenCall {
   ~OpenCall() { open_calls()->end(call_); }
   OpenCall(const OpenCall&) = delete;
   OpenCall& operator=(const OpenCall&) = delete;
+
+ private:
+  CallState& call_;
+};
+
+/// It is in its callback, as long as this lives.
+class OpenCallback {
+ public:
+  explicit OpenCallback(CallState& call) : call_(call) { open_calls()->begin_callback(call); }
+  ~OpenCallback() { open_calls()->end_callback(call_); }
+  OpenCallback(const OpenCallback&) = delete;
+  OpenCallback& operator=(const OpenCallback&) = delete;
 
  private:
   CallState& call_;
@@ -139,6 +169,7 @@ void CallState::listen(const py::object& progress) {
     if (!std::exchange(has_news_, false)) return;
     stage = stage_, fraction = fraction_;
   }
+  const OpenCallback open(*this);
   if (says_no(progress(stage, fraction))) cancel();
 }
 
