@@ -163,7 +163,8 @@ int try_step(const BatchStep& words, const fs::path& folder) {
   return run_batch_step(words, "report.json", 1);
 }
 
-/// Files that people write by hand, and no step. Throws: UsageMistake where one is not there.
+/// Files that people write by hand, and no step; those of a single shape are its run's business.
+/// Throws: UsageMistake where one is not there.
 void require_written_files(const BatchStep& words) {
   constexpr std::array<std::string_view, 2> options = {"--pin", "--landmarks"};
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -173,7 +174,7 @@ void require_written_files(const BatchStep& words) {
       if (words[i].starts_with(std::string(option) + "="))
         file = words[i].substr(option.size() + 1);
       std::error_code hidden;
-      if (file.empty() || fs::exists(file, hidden)) continue;
+      if (file.empty() || !placeholders_in(file).empty() || fs::exists(file, hidden)) continue;
       throw UsageMistake(words.front() + " " + std::string(option) + ": " + file +
                          ": no such file; files of options are found where `batch plan` is typed");
     }
@@ -188,8 +189,8 @@ void require_sense(const std::vector<BatchStep>& steps, const BatchInputs& input
   const fs::path nowhere = folder.path() / "nowhere" / fs::path(shape.path).filename();
   const BatchPlan plan{.steps = steps, .columns = inputs.columns};
   const BatchItem item{.id = "no_such_shape", .path = nowhere.string(), .values = shape.values};
+  for (const BatchStep& step : steps) require_written_files(step);
   for (const BatchStep& words : steps_of(plan, item)) {
-    require_written_files(words);
     const pid_t child = start_child([&] { return try_step(words, folder.path()); });
     if (wait_for_child(child).code != UsageError) continue;
     const auto log = small_file((folder.path() / "log").string());
