@@ -259,6 +259,16 @@ TEST_CASE("batch: mistakes are told before anything is planned") {
   CHECK_THAT(shapes.batch("run").err, Contains("no batch in this folder"));
 }
 
+TEST_CASE("batch: pins of each shape are found when it runs, by its id or its path") {
+  const Shapes shapes(2);
+  fs::create_directories(shapes.folder / "pins");
+  for (const char* const name : {"pins/ball0.txt", "pins/ball1.txt", "in/ball0.obj.txt"})
+    write_bytes(shapes.folder / name, "0 1.0 1.0\n");
+  CHECK(shapes.plan({"map", "{input}", "--pin", "{input}.txt"}).code == 0);
+  CHECK(shapes.plan({"map", "--pin=" + (shapes.folder / "pins/{id}.txt")}).code == 0);
+  CHECK_THAT(shapes.batch("run").err, Contains("2 done, 0 failed"));
+}
+
 TEST_CASE("batch: a Snakefile of the user's own is no batch's, one of a batch is replaced") {
   const Shapes shapes(1);
   fs::create_directories(shapes.work);
@@ -296,6 +306,21 @@ TEST_CASE("batch: what was made of an input that is bad now goes when that is re
   REQUIRE(shapes.batch("run").code == 0);
   CHECK(fs::exists(shapes.work + "/failed/ball0.json"));
   CHECK_FALSE(fs::exists(shapes.work + "/results/ball0"));
+}
+
+TEST_CASE("batch: results of another program stay when this one fails with the same input") {
+  const Shapes shapes(1);
+  REQUIRE(shapes.plan().code == 0);
+  REQUIRE(shapes.batch("run").code == 0);
+  const std::string record = shapes.work + "/results/ball0/record.json";
+  std::string bytes = bytes_of(record);
+  const std::string mark = "\"program\":\"";
+  bytes[bytes.find(mark) + mark.size()] ^= 1;
+  write_bytes(record, bytes);
+  const Ended run = sphparam_program({"--limit", "vertices=10", "batch", "run", shapes.work});
+  CHECK_THAT(run.err, Contains("0 done, 1 failed"));
+  CHECK(fs::exists(shapes.work + "/failed/ball0.json"));
+  CHECK_FALSE(shapes.map("ball0").empty());
 }
 
 TEST_CASE("batch: maps of all components are certified, and their repairs counted together") {

@@ -35,13 +35,14 @@ void replace(const std::string& staged, const std::string& target) {
   if (!rename_to(target, staged + "-old") || !rename_to(staged, target)) fail(target);
 }
 
-/// Are these results of the same steps before what failed now: of the input as it was, or of an
-/// earlier attempt? Those of other steps are another plan's.
+/// Are these results of the same steps, of the input as it was before? Those of other steps are
+/// another plan's; those of this input stay good when a later attempt fails, as of another program
+/// or with less time.
 bool is_outdated_by(const BatchRecord& failure, const std::string& results) {
   const auto bytes = small_file(results + "/record.json");
   const auto head = bytes ? read_head(*bytes) : std::nullopt;
   if (!head || head->options != failure.head.options) return false;
-  return head->planned != failure.head.planned || head->attempt < failure.head.attempt;
+  return head->planned != failure.head.planned;
 }
 
 }  // namespace
