@@ -102,6 +102,14 @@ TEST_CASE("input hash: libraries of OBJ and their images count") {
   CHECK(in.counts("n.png", path));
 }
 
+TEST_CASE("input hash: a statement of OBJ over thousands of lines is read once") {
+  const Inputs in;
+  std::string text;
+  for (int i = 0; i < 3000; ++i) text += "mtllib \\\n";
+  CHECK(in.counts("a.mtl", in.write("a.obj", text + "a.mtl\nmtllib b.mtl\nv 0 0 0\n")));
+  CHECK(in.counts("b.mtl", in.write("a.obj", text + "a.mtl\nmtllib b.mtl\nv 0 0 0\n")));
+}
+
 TEST_CASE("input hash: images of COLLADA and FBX count, wherever they were") {
   const Inputs in;
   const std::string dae = in.write(
@@ -110,6 +118,14 @@ TEST_CASE("input hash: images of COLLADA and FBX count, wherever they were") {
       "<image><init_from><ref>maps/d%20e.png</ref></init_from></image></COLLADA>");
   CHECK(in.counts("c.png", dae));
   CHECK(in.counts("maps/d e.png", dae));
+  const std::string signs =
+      in.write("b.dae",
+               "<COLLADA><image><init_from sid=\"x\">\n  maps/a&amp;b.png\r\n</init_from></image>"
+               "<image><init_from>\n<ref>a&lt;&apos;&amp;lt;.png</ref></init_from></image>"
+               "<init_from_other>c.png</init_from_other><init_from/></COLLADA>");
+  CHECK(in.counts("maps/a&b.png", signs));
+  CHECK(in.counts("a<'&lt;.png", signs));
+  CHECK_FALSE(in.counts("c.png", signs));
   const std::string fbx = in.write("a.fbx", "Kaydara FBX Binary  " + fbx_property("maps\\c.png"));
   CHECK(in.counts("maps/c.png", fbx));
   const std::string text =

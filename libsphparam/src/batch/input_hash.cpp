@@ -10,6 +10,7 @@
 #include <set>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "batch/content_hash.h"
@@ -40,8 +41,8 @@ class NamedFiles {
     if (looks_like_gltf(bytes)) {
       find_uris(bytes, path);
     } else if (looks_like_collada(bytes)) {
-      for (const char* const mark : {"<init_from>", "<ref>"})
-        find_behind(bytes, mark, [&](std::string_view rest) { add_picture(up_to(rest, "<")); });
+      for (const char* const mark : {"<init_from", "<ref"})
+        find_behind(bytes, mark, [&](std::string_view rest) { add_picture(text_of_xml(rest)); });
     } else if (looks_like_fbx(bytes)) {
       for (const char* const mark : {"Filename", "FileName"})
         find_behind(bytes, mark, [&](std::string_view rest) { add_picture(text_of_fbx(rest)); });
@@ -98,6 +99,23 @@ class NamedFiles {
     return text.substr(0, text.find(end));
   }
 
+  /// Behind the name of its element, which may have attributes.
+  static std::string text_of_xml(std::string_view rest) {
+    constexpr std::string_view blanks = " \t\r\n";
+    constexpr std::pair<std::string_view, char> entities[] = {
+        {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}, {"&amp;", '&'}};
+    const bool is_longer_name = !rest.starts_with('>') && rest.find_first_of(blanks) != 0;
+    if (is_longer_name) return "";
+    rest.remove_prefix(std::min(up_to(rest, ">").size() + 1, rest.size()));
+    rest = up_to(rest, "<");
+    rest.remove_prefix(std::min(rest.find_first_not_of(blanks), rest.size()));
+    std::string text(rest.substr(0, rest.find_last_not_of(blanks) + 1));
+    for (const auto& [entity, sign] : entities)
+      for (std::size_t at = text.find(entity); at != std::string::npos; at = text.find(entity, at))
+        text.replace(at++, entity.size(), 1, sign);
+    return text;
+  }
+
   /// Behind the name of its property: `: "TEXT"`, or in binary files 'S', four bytes of length,
   /// TEXT.
   static std::string_view text_of_fbx(std::string_view rest) {
@@ -123,13 +141,16 @@ class NamedFiles {
   void find_libraries(std::string_view bytes) {
     std::vector<std::string> libraries;
     std::set<std::string> seen;
+    const char* end = bytes.data();  // of the last statement
     find_behind(bytes, "mtllib", [&](std::string_view rest) {
+      if (rest.data() < end) return;
       const std::string_view before = bytes.substr(0, rest.data() - bytes.data() - 6);
       const std::size_t last = before.find_last_not_of(" \t");
       const bool begins =
           last == std::string_view::npos || before[last] == '\n' || before[last] == '\r';
       if (!begins) return;
-      std::string statement = statement_of(rest);
+      std::string statement = take_statement(rest);
+      end = rest.data();
       if (seen.insert(statement).second) libraries.push_back(std::move(statement));
     });
     any_ = !libraries.empty();
@@ -138,16 +159,17 @@ class NamedFiles {
     for (const std::string& image : library_images(libraries, folder_, {})) add(image);
   }
 
-  /// To the end of its line, which a backslash carries on to the next.
-  static std::string statement_of(std::string_view rest) {
+  /// To the end of its line, which a backslash carries on to the next. Leaves what comes then.
+  static std::string take_statement(std::string_view& rest) {
     std::string statement;
     for (;;) {
       const std::size_t end = std::min(rest.find_first_of("\r\n"), rest.size());
       statement += rest.substr(0, end);
       statement.erase(statement.find_last_not_of(" \t") + 1);
-      if (!statement.ends_with('\\') || end == rest.size()) break;
+      rest.remove_prefix(end);
+      if (!statement.ends_with('\\') || rest.empty()) break;
       statement.back() = ' ';
-      rest.remove_prefix(end + (rest.substr(end).starts_with("\r\n") ? 2 : 1));
+      rest.remove_prefix(rest.starts_with("\r\n") ? 2 : 1);
     }
     return statement.substr(std::min(statement.find_first_not_of(" \t"), statement.size()));
   }
