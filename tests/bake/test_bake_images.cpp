@@ -319,6 +319,29 @@ TEST_CASE("bake images: a target is on the same sphere, or the user is told") {
   CHECK_THROWS_AS(bake(source, images, settings), OtherSphereError);
 }
 
+TEST_CASE("bake images: radial maps about two centres have not one sphere, which is told") {
+  const Folder folder;
+  const auto stone = [](double x) {
+    MeshFile file;
+    file.mesh = icosphere(3);
+    Points rays = file.mesh.positions;
+    rays.col(0).array() -= x;
+    SphereMap map{rays.rowwise().normalized()};
+    return MappedMesh(
+        {.file = std::move(file),
+         .map = std::move(map),
+         .provenance = {{"radial-centre", std::to_string(x) + " 0 0"}, {"radial-movement", "0"}},
+         .name = "stone"});
+  };
+  BakeSettings settings = small;
+  settings.target = stone(0.02);
+  const std::vector<BakeRequest> images = {{"height", folder / "h.png"}};
+  const BakeReport told = bake(stone(0), images, settings);
+  REQUIRE(told.warnings.size() == 1);
+  CHECK_THAT(told.warnings[0], Catch::Contains("another centre than stone, 0.02 units of"));
+  CHECK(bake(stone(0.02), images, settings).warnings.empty());
+}
+
 TEST_CASE("bake images: values are had without files, as the engine has them") {
   const MappedMesh source = egg(3);
   std::vector<float> values;

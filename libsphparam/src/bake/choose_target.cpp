@@ -6,6 +6,7 @@
 #include "bake/shared_sphere.h"
 #include "number_text.h"
 #include "sphparam/chart/chart_failure.h"
+#include "sphparam/io/planetocentric.h"
 
 namespace sphparam {
 namespace {
@@ -26,6 +27,17 @@ void require_one_sphere(const MappedMesh& source, const BakeSettings& settings,
   chosen.warnings.push_back(target.name() + ": " + far);
 }
 
+/// A direction is a ray from the centre, which about another one meets another place.
+void compare_centres(const MappedMesh& source, const BakeSettings& settings, ChosenTarget& chosen) {
+  const MappedMesh& target = *settings.target;
+  const auto high = planetocentric(source.provenance()), low = planetocentric(target.provenance());
+  if (!high || !low || high->centre == low->centre) return;
+  const double apart = (high->centre - low->centre).stableNorm();
+  chosen.warnings.push_back(target.name() + ": is mapped about another centre than " +
+                            source_name(source, settings) + ", " + short_number(apart) +
+                            " units of the mesh away, so that a direction is another place on it");
+}
+
 BakeTarget target_on(const MappedMesh& mapped, bool is_source, const BakeSettings& settings) {
   try {
     return make_target(mapped, is_source, settings.threads, settings.refine_poles,
@@ -44,7 +56,10 @@ const std::string& source_name(const MappedMesh& source, const BakeSettings& set
 
 ChosenTarget choose_target(const MappedMesh& source, const BakeSettings& settings) {
   ChosenTarget chosen;
-  if (settings.target) require_one_sphere(source, settings, chosen);
+  if (settings.target) {
+    require_one_sphere(source, settings, chosen);
+    compare_centres(source, settings, chosen);
+  }
   const MappedMesh& mesh = settings.target ? *settings.target : source;
   chosen.target = target_on(mesh, !settings.target && !settings.from, settings);
   const std::string& name = settings.target ? mesh.name() : source_name(source, settings);
