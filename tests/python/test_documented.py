@@ -1,10 +1,14 @@
 """All that is public has its types and says what it is; the page of the documents names it."""
 
 import ast
+import compileall
 import inspect
 import os
 import pathlib
 import pydoc
+import shutil
+import subprocess
+import sys
 import typing
 
 import pytest
@@ -131,3 +135,25 @@ def test_annotations_can_be_read():
 
     for name in ("Defect", "Stage", "Distance"):
         assert typing.get_type_hints(getattr(sp, name), vars(typing) | vars(sp))
+
+
+def test_it_is_there_without_its_sources(tmp_path):
+    copy = tmp_path / "sphparam"
+    shutil.copytree(pathlib.Path(sp.__file__).parent, copy)
+    assert compileall.compile_dir(copy, legacy=True, quiet=1)
+    for source in copy.glob("*.py"):
+        source.unlink()
+    use = "import sphparam as sp; print(len([getattr(sp, name) for name in sp.__all__]), sp.__file__)"
+    environment = {**os.environ, "PYTHONPATH": str(tmp_path)}
+    said = subprocess.run([sys.executable, "-c", use], env=environment, check=True, capture_output=True, text=True)
+    assert said.stdout.split() == [str(len(sp.__all__)), str(copy / "__init__.pyc")]
+
+
+def test_texts_that_begin_as_a_class_does_are_no_classes(tmp_path):
+    from sphparam._attributes import document
+
+    source = tmp_path / "told.py"
+    source.write_text('class A:\n    """Text.\n\nclass of its own, and\nclass A2 too\n"""\n\n    a: int\n    """What a is."""\n')
+    names = {"__file__": str(source), "A2": 2}
+    exec(source.read_text(), names)
+    document(names)

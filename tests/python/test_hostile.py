@@ -315,6 +315,7 @@ bad_uses = {
     "picture: front is up": (lambda m: m.picture(front="z"), ValueError, "front"),
     "save: no name": (lambda m: m.save(""), ValueError, "path"),
     "save: a zero byte": (lambda m: m.save("a\0.ply"), ValueError, "path"),
+    "save: half a letter": (lambda m: m.save("a\ud800.ply"), ValueError, r"path: no file has the name .*ud800"),
     "save: bytes": (lambda m: m.save(b"a.ply"), TypeError, "bytes"),
     "save: no such format": (lambda m: m.save("a.stl"), sp.WriteError, "stl"),
     "picture: no such colours": (lambda m: m.picture(colours="red"), ValueError, "checker"),

@@ -125,6 +125,17 @@ def test_more_of_the_sphere_may_be_left_to_holes():
         sp.map(V, F, filler_share=0)
 
 
+def test_notes_say_what_is_typed_here():
+    ends = V[F[::40, 0]]
+    torn, faces = np.r_[V, ends + 1e-7], F.copy()
+    faces[::40, 0] = len(V) + np.arange(len(ends))
+    for made in (sp.repair(torn, faces), sp.map(torn, faces, repair=True)):
+        [note] = [note for note in made.notes if "of the area" in note]
+        assert note.startswith("repair=dict(weld_share=") and "--" not in note
+        options = eval(note[len("repair=") : note.index(")") + 1])
+        assert len(sp.map(torn, faces, repair=options).vertices) == len(V)
+
+
 def several():
     """A large part, a small one, and a speck."""
     other = np.r_[V, 0.3 * V + 9, 1e-3 * V - 9]

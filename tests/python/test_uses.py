@@ -87,6 +87,17 @@ def test_what_is_not_carried_is_told():
         sp.map(PyVista())
 
 
+@pytest.mark.filterwarnings("error")
+def test_what_a_surface_has_besides_is_told_once_for_all_images(mapped, tmp_path):
+    paths = {"scalar:sulc": tmp_path / "s.tif", "normal-object": tmp_path / "n.tif", "position": tmp_path / "p.tif"}
+    with pytest.warns(sp.LossWarning, match="name.*numbers are needed") as told:
+        mapped.bake_files(paths, size=64, surface=PyVista())
+    assert len(told) == 1
+    with pytest.warns(sp.LossWarning, match="name.*numbers are needed") as told:
+        mapped.bake("scalar:sulc", size=64, surface=PyVista())
+    assert len(told) == 1
+
+
 # Values.
 
 

@@ -10,14 +10,17 @@ _declared = re.compile(r'^ {4}(?: {4}self\.)?(\w+): .*\n +"""((?:.|\n)*?)"""', r
 
 def document(module: Dict[str, Any]) -> None:
     """Of all classes of a module, by its names: it calls this at its end."""
+    if not module["__file__"].endswith(".py"):  # compiled, without its source: help says less then
+        return
     try:
         with open(module["__file__"], encoding="utf-8") as file:
             source = file.read()
-    except OSError:  # in an archive: help says less then
+    except OSError:  # in an archive
         return
     for part in re.split(r"^class ", source, flags=re.MULTILINE)[1:]:
-        kind = module[re.split(r"\W", part, maxsplit=1)[0]]
-        _document(kind, {name: " ".join(text.split()) for name, text in _declared.findall(part)})
+        kind = module.get(re.split(r"\W", part, maxsplit=1)[0])
+        if isinstance(kind, type):  # and not what a text says of one
+            _document(kind, {name: " ".join(text.split()) for name, text in _declared.findall(part)})
 
 
 def _document(kind: Any, texts: Dict[str, str]) -> None:

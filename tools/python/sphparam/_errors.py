@@ -25,7 +25,12 @@ def as_typed_here(message: str) -> str:
     """A message of the library, with arguments where it names options of the program."""
     for option, argument in _typed_here.items():
         message = message.replace(option, argument)
+    message = re.sub(r"--repair --weld (\S+)%", _as_weld_typed, message)
     return re.sub(r": --convention (\w+) shows", r': convention="\1" shows', message)
+
+
+def _as_weld_typed(option: re.Match[str]) -> str:
+    return f"repair=dict(weld_share={float(option[1]) / 100:.6g})"
 
 
 class Defect(NamedTuple):

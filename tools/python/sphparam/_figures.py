@@ -34,7 +34,7 @@ class Certificate(NamedTuple):
     degenerate: Ints
     """(k,) faces that are flat."""
     unusable_points: Ints
-    """(k,) vertices whose ray is zero, not finite or beyond 2⁶⁴."""
+    """(k,) vertices whose ray is zero or not finite."""
     branch_vertices: Ints
     """(k,) vertices whose triangles wind more than once about them."""
     max_length_error: float

@@ -6,6 +6,7 @@ import zlib
 from typing import TYPE_CHECKING, Any, Callable, Dict, List, NoReturn, Optional, Sequence, Tuple, Type, TypeVar
 
 from . import _core, _values
+from ._errors import as_typed_here
 from ._figures import Action, Certificate, Distortion, FaceDistortion, HandleLoop, Radial, Stage
 from ._mesh import Mesh, numbered
 from ._numpy import np
@@ -263,7 +264,7 @@ class MapFacts:
     @property
     def notes(self) -> List[str]:
         """What was odd about the file, or done to the mesh."""
-        return self._mapped.notes
+        return [as_typed_here(note) for note in self._mapped.notes]
 
     @property
     def repairs(self) -> Tuple[Action, ...]:

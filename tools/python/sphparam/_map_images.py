@@ -45,8 +45,13 @@ def _baking(given: Dict[str, Any]) -> Dict[str, Any]:
     if given["target"] is not None:
         options["target"] = mapped_of(given["target"], "target")
     if given["surface"] is not None:
-        options["surface"] = any_mesh(given["surface"], None)._source
+        options["surface"] = given["surface"]._source
     return options
+
+
+def _taken_once(surface: Optional[Any]) -> Optional[Mesh]:
+    """So that what it has besides is told once."""
+    return None if surface is None else any_mesh(surface, None)
 
 
 def _require_field(name: str) -> None:
@@ -155,6 +160,7 @@ class MapImages(MapFacts):
         from ._baked import Baked, BakedImage
 
         _require_field(_arrays.text(field, "field"))
+        surface = _taken_once(surface)
         options = _baking(locals())
         self._require_scalar(field, surface)
         with told(progress) as report:
@@ -163,14 +169,13 @@ class MapImages(MapFacts):
         poles = refine_poles if options["interpolation"] == "uv" else None
         return BakedImage._of(table, name, about, Baked(options["convention"], poles, normal_y_down, frame))
 
-    def _require_scalar(self, field: str, surface: Optional[Any]) -> None:
+    def _require_scalar(self, field: str, surface: Optional[Mesh]) -> None:
         """Tells of several numbers a vertex which one is one image."""
         kind, _, name = field.partition(":") if isinstance(field, str) else ("", "", "")
         if kind != "scalar":
             return
-        other = None if surface is None else any_mesh(surface, None)
         mine = (self.values, self.face_values)
-        for values in mine if other is None else (other.values, other.face_values):
+        for values in mine if surface is None else (surface.values, surface.face_values):
             names = values.columns(name)
             if len(names) > 1:
                 listed = ", ".join("scalar:" + column for column in names)
@@ -211,6 +216,7 @@ class MapImages(MapFacts):
         only. The others are those of :meth:`bake`. With a ``body``, files beside ``.png`` and ``.tif`` tell
         GDAL and QGIS where they lie.
         """
+        surface = _taken_once(surface)
         options = _baking(locals())
         for name in images:
             self._require_scalar(name, surface)

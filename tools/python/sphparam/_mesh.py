@@ -6,7 +6,7 @@ import os
 from typing import TYPE_CHECKING, Any, List, Mapping, NoReturn, Optional, Tuple, Union
 
 from . import _arrays, _core, _values
-from ._errors import Defect, MeshError, ReadError, WriteError
+from ._errors import Defect, MeshError, ReadError, WriteError, as_typed_here
 from ._figures import Action, HandleLoop, Inspection
 from ._losses import tell
 from ._numpy import np
@@ -27,8 +27,12 @@ def path_of(path: Path) -> str:
     name = os.fspath(path)
     if not isinstance(name, str):
         raise TypeError("path: a text is needed, not bytes")
-    if "\0" in name or not name:
-        raise ValueError("path: no file has this name")
+    try:
+        encoded = os.fsencode(name)
+    except UnicodeEncodeError:  # halves of letters, which no system has in names
+        encoded = b""
+    if b"\0" in encoded or not encoded:
+        raise ValueError(f"path: no file has the name {name!a}")
     return name
 
 
@@ -165,7 +169,7 @@ class Mesh:
     @property
     def notes(self) -> List[str]:
         """What was odd about the file, or done to the mesh on reading."""
-        return self._source.notes
+        return [as_typed_here(note) for note in self._source.notes]
 
     @property
     def has_map(self) -> bool:
