@@ -177,12 +177,18 @@ TEST_CASE("stl_reader: normals need not be finite, nobody reads them") {
 TEST_CASE("stl_reader: what fills a file up behind its mesh is noted, and the mesh is read") {
   const std::string text = ascii_stl(tetrahedron()), bytes = binary_stl(tetrahedron());
   for (const std::string& more :
-       {std::string("x"), std::string(10, '\1'), std::string(1000, '\0')}) {
+       {std::string("x"), std::string(49, '\1'), std::string(1000, '\0'), std::string(77, '\0')}) {
     const MeshFile file = read(bytes + more, "a.stl");
     CHECK(file.mesh.triangles == read(bytes).mesh.triangles);
     REQUIRE(file.notes.size() == 1);
     CHECK(contains(file.notes[0], "data after the last triangle ignored: " +
                                       std::to_string(more.size()) + " byte"));
+  }
+  // There is room for a triangle: noise is no mesh, and the last one may be cut off.
+  for (const std::size_t more : {50, 51, 99, 10007}) {
+    INFO(more);
+    CHECK(contains(complaint(bytes + std::string(more, '\1'), "a.stl"),
+                   "this file has " + std::to_string(bytes.size() + more)));
   }
   const MeshFile padded = read(text + std::string(50, '\0'), "a.stl");
   CHECK(padded.mesh.triangles == read(text).mesh.triangles);

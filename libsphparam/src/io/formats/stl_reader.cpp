@@ -205,11 +205,11 @@ class BinaryReader {
     return facets;
   }
 
-  /// What comes after the triangles is no triangles, of which the count would be wrong.
+  /// What comes after the triangles holds none, of which the count would be wrong.
   bool is_padded(std::uint32_t facets) const {
     if (facets == 0 || bytes_.size() < binary_size(facets)) return false;
     const std::string_view more = bytes_.substr(binary_size(facets));
-    return more.size() % facet_bytes != 0 || more.find_first_not_of('\0') == std::string_view::npos;
+    return more.size() < facet_bytes || more.find_first_not_of('\0') == std::string_view::npos;
   }
 
   void add_corner(Welder& welder, std::size_t at) const {
