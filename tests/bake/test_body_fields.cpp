@@ -11,6 +11,8 @@
 #include "scenes.h"
 #include "sphparam/bake/bake.h"
 #include "sphparam/io/fillers.h"
+#include "sphparam/io/planetocentric.h"
+#include "sphparam/io/up_axis.h"
 #include "sphparam/sphere/radial_directions.h"
 #include "sphparam/sphere/spherical_coordinates.h"
 #include "support/test_meshes.h"
@@ -321,6 +323,13 @@ TEST_CASE("body_of: WKT whose latitudes maps have not is refused, with what to g
   CHECK_THROWS_WITH(body_of("GEOGCS[\"Mars\",DATUM[\"Mars\",SPHEROID[\"Mars\",3396190,169.9]],"
                             "AUTHORITY[\"IAU\",\"49901\"]]"),
                     Contains("the name mars"));
+  CHECK_THROWS_WITH(body_of("GEOGCS[\"Mars\",DATUM[\"Mars\",SPHEROID[\"Mars\",3396190,169.9]],"
+                            "AUTHORITY[\"IAU\",\"1e300\"]]"),
+                    Contains("a geographic one on a sphere is needed, or a radius"));
+  CHECK_THROWS_WITH(
+      body_of("GEODCRS[\"Mars\"," + datum + "CS[Cartesian,3],ID[\"IAU\",49902,2015]]"),
+      Contains("is of a geocentric system") && Contains("the name mars") &&
+          !Contains("planetographic"));
   CHECK_THROWS_WITH(
       body_of("PROJCRS[\"Eros (2015) - Sphere / Ocentric / Equirectangular\",BASEGEOGCRS[\"Eros\","
               "DATUM[\"Eros\",ELLIPSOID[\"Eros\",17000,0]],ID[\"IAU\",200043300,2015]],"
@@ -368,7 +377,8 @@ TEST_CASE("sidecars: lengths and curvatures have units, what covers kept holes i
   std::fill_n(fillers.begin(), 40, 1);
   mark_fillers(file, fillers);
   SphereMap map{file.mesh.positions.rowwise().normalized()};
-  bake(MappedMesh({.file = std::move(file), .map = std::move(map), .name = "holed"}),
+  const MappedMesh holed({.file = std::move(file), .map = std::move(map), .name = "holed"});
+  bake(holed,
        {{"radius", folder / "r.tif"},
         {"thickness", folder / "t.tif"},
         {"curvature", folder / "c.tif"},
@@ -383,6 +393,9 @@ TEST_CASE("sidecars: lengths and curvatures have units, what covers kept holes i
   CHECK(element(cover, "Description") == "surface");
   CHECK(element(cover, "ColorInterp") == "Alpha");
   CHECK_THAT(cover, !Contains("UnitType") && !Contains("Scale"));
+  settings.fields.body = body_of("Vesta", 0.3);
+  bake(holed, {{"curvature:gauss", folder / "g.tif"}}, settings);
+  CHECK(element(text_of(folder / "g.tif.aux.xml"), "UnitType") == "1/(0.3 m)^2");
 }
 
 TEST_CASE("sidecars: longitudes are called planetocentric only where they are") {
@@ -464,6 +477,54 @@ TEST_CASE("lon, lat: north is what the file says points up") {
     for (size_t i = 0; i < here.values.size(); ++i)
       if (std::abs(here.values[i] - there.values[i]) > 1e-3F) FAIL(i);
   }
+}
+
+TEST_CASE("bake: what only says that it is radial is not seen from its centre") {
+  MeshFile file;
+  file.mesh = star_shaped(0, 2);
+  const SphereMap directions = radial_directions(file.mesh),
+                  other = radial_directions(icosphere(2));
+  const auto radius = [&](const SphereMap& map, const Provenance& lines) {
+    return baked(MappedMesh({.file = file, .map = map, .provenance = lines}), "radius").values;
+  };
+  const Provenance radial = {{"radial-centre", "0 0 0"}, {"radial-movement", "0"}};
+  CHECK(radius(other, radial) == radius(other, {}));
+  Provenance anew = radial;
+  anew.emplace_back("anew", "nothing of the method's own map is left");
+  CHECK(radius(directions, anew) == radius(directions, {}));
+  CHECK(radius(directions, radial) != radius(directions, {}));
+}
+
+TEST_CASE("body axes: longitude -90 is the front, which z up has too") {
+  const auto axes = [](std::vector<std::string> comments) {
+    MeshFile file;
+    file.comments = std::move(comments);
+    return body_axes(file);
+  };
+  const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
+  CHECK(axes({}) == identity);
+  CHECK(axes({"up axis z"}) == identity);
+  CHECK(axes({"front axis z"}) == identity);  // along what is up: none
+  CHECK(axes({"up axis z", "front axis -y"}) == identity);
+  for (const char* up : {"x", "y", "z"}) {
+    for (const char* front : {"x", "-x", "y", "-y", "z", "-z"}) {
+      INFO(up << " up, " << front << " in front");
+      const Vector3 north = *direction_named(up), seen = *direction_named(front);
+      if (north.dot(seen) != 0) continue;
+      const Eigen::Matrix3d rows =
+          axes({std::string("up axis ") + up, std::string("front axis ") + front});
+      CHECK(rows * north == Vector3(0, 0, 1));
+      CHECK(rows * seen == Vector3(0, -1, 0));
+      CHECK(rows.determinant() == 1);
+    }
+  }
+  MeshFile file, gltf;
+  file.mesh = gltf.mesh = star_shaped(0, 2);
+  file.comments = {"up axis z", "front axis x"};
+  gltf.comments = {"up axis y", "front axis z"};
+  gltf.mesh.positions *= upright_rotation(upright_axes(file)).transpose();
+  CHECK(body_directions(gltf, Vector3::Zero()).points ==
+        body_directions(file, Vector3::Zero()).points);
 }
 
 TEST_CASE("sidecars: a map that is radial about another centre has not the body's longitudes") {

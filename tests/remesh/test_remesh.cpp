@@ -435,3 +435,23 @@ TEST_CASE("remesh: of a radial map, vertices are in their directions from its ce
   const MappedMesh unsaid = mapped(file, body.map());  // along the sphere's flat triangles
   CHECK(off(remesh(unsaid, grid_named("healpix:8"))) > 0.01);
 }
+
+TEST_CASE("remesh: what only says that it is radial is no radial map") {
+  MeshFile file;
+  file.mesh = icosphere(2);
+  const SphereMap map{file.mesh.positions};
+  file.mesh.positions *= Vector3(9, 3, 1).asDiagonal();
+  const auto positions = [&](const SphereMap& of_map, const Provenance& lines) {
+    return remesh(MappedMesh({.file = file, .map = of_map, .provenance = lines}),
+                  grid_named("ico:3"))
+        .mesh()
+        .positions;
+  };
+  const Provenance radial = {{"radial-centre", "0 0 0"}, {"radial-movement", "0"}};
+  CHECK(positions(map, radial) == positions(map, {}));  // other directions than the mesh has
+  const SphereMap directions = radial_directions(file.mesh);
+  Provenance anew = radial;
+  anew.emplace_back("anew", "nothing of the method's own map is left");
+  CHECK(positions(directions, anew) == positions(directions, {}));
+  CHECK_FALSE(positions(directions, radial) == positions(directions, {}));
+}

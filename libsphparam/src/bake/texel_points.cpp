@@ -60,8 +60,10 @@ TexelFinder::TexelFinder(const BakeScene& scene, const TexelOwners& owners,
   const bool sphere = interpolation == Interpolation::Sphere;
   if (scene.source.mapped && (sphere || !scene.target.is_source)) {
     source_ = &scene.source.mapped->locator();
-    if (const auto radial = planetocentric(scene.source.mapped->provenance())) {
-      const StandingBody body = standing_body(scene.source.mapped->file(), radial->centre);
+    const MappedMesh& mapped = *scene.source.mapped;
+    const auto radial = planetocentric(mapped.provenance());
+    if (radial && is_as_said(*radial, mapped.file(), mapped.map())) {
+      const StandingBody body = standing_body(mapped.file(), radial->centre);
       seen_from_centre_ = body.mesh.positions.rowwise() - body.centre.transpose();
     }
   }

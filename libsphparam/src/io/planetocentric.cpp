@@ -75,7 +75,7 @@ bool is_about(const Planetocentric& radial, const Vector3& centre, const Triangl
 Eigen::Matrix3d body_axes(const MeshFile& file) {
   const UprightAxes axes = upright_axes(file);
   Eigen::Matrix3d rows = Eigen::Matrix3d::Identity();
-  if (axes.up == Vector3::UnitZ()) return rows;
+  if (axes.up == Vector3::UnitZ() && axes.front == -Vector3::UnitY()) return rows;
   rows << axes.right().transpose(), -axes.front.transpose(), axes.up.transpose();
   return rows;
 }

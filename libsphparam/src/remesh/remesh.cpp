@@ -49,11 +49,11 @@ std::vector<SurfacePoint> locate(const SphereLocator& locator, const Points& dir
   return points;
 }
 
-/// Of a radial map: from where the map's triangles have directions, which are flat on the sphere,
-/// to where rays from its centre meet the mesh. Edges stay edges.
+/// Of a map that is radial: from where the map's triangles have directions, which are flat on the
+/// sphere, to where rays from its centre meet the mesh. Edges stay edges.
 void move_to_rays(const MappedMesh& source, std::vector<SurfacePoint>& points, int threads) {
   const auto radial = planetocentric(source.provenance());
-  if (!radial) return;
+  if (!radial || !is_as_said(*radial, source.file(), source.map())) return;
   const TriangleMesh& mesh = source.mesh();
   const VectorX distances =
       (mesh.positions.rowwise() - radial->centre.transpose()).rowwise().norm();

@@ -32,8 +32,9 @@ Vector3 body_centre(const std::optional<Planetocentric>& radial,
 bool is_about(const Planetocentric& radial, const Vector3& centre, const TriangleMesh& mesh);
 
 /// How a body stands in the coordinates of a file, the rows x, y, z of its own frame: north is what
-/// the file says points up (up_axis.h), z where it says nothing, and then this is the identity;
-/// longitude −90° is the file's front, so that glTF has back the frame that it was turned from.
+/// the file says points up (up_axis.h), z where it says nothing; longitude −90° is the file's
+/// front, so that glTF has back the frame that it was turned from. The identity where z is up and
+/// −y in front, as where the file says neither.
 Eigen::Matrix3d body_axes(const MeshFile& file);
 
 /// The mesh and a centre in the body's frame.
@@ -41,7 +42,8 @@ struct StandingBody {
   TriangleMesh mesh;
   Vector3 centre;
 };
-/// Requires: a centre in the mesh's coordinates. Ensures: the bits of the file where z is up.
+/// Requires: a centre in the mesh's coordinates. Ensures: the bits of the file where z is up, and
+/// −y in front.
 StandingBody standing_body(const MeshFile& file, const Vector3& centre);
 
 /// `parameterize` of the mesh of a file; by Method::Radial as the body stands, `centre` being in

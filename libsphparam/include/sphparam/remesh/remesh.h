@@ -68,7 +68,8 @@ class Remeshed : public MappedMesh {
 
 /// Resamples a mapped mesh: each vertex of the grid gets the point of the surface that the map
 /// takes to its direction, and what the surface has there: of a radial map, what a ray from its
-/// centre in that direction meets.
+/// centre in that direction meets, as near as its vertices are to theirs; not of one that was made
+/// anew, or where mesh or map were moved since (`is_as_said`, planetocentric.h).
 ///
 /// Floating numbers and colours are interpolated, normals made unit again, whole numbers are labels
 /// and never mixed. Texture coordinates and normals of corners come from the side of a seam that

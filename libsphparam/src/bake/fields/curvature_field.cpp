@@ -72,8 +72,10 @@ SurfaceField curvature_field(const BakeScene& scene, const std::string& argument
         value[0] = values[triangles(face, k)];
       });
   if (scene.options.heat) return as_heat(std::move(field));
-  if (const std::string unit = unit_of_lengths(scene.options); !unit.empty())
+  if (std::string unit = unit_of_lengths(scene.options); !unit.empty()) {
+    if (unit.find(' ') != std::string::npos) unit = "(" + unit + ")";  // "0.3 m"
     field.unit = "1/" + unit + (gauss ? "^2" : "");
+  }
   return field;
 }
 

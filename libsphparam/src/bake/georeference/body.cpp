@@ -110,6 +110,7 @@ bool brackets_match(std::string_view wkt) {
 /// on.
 const IauBody* iau_body_of(std::string_view wkt) {
   constexpr long systems = 100;
+  constexpr double beyond_codes = 1e12;
   const size_t place = wkt.find("ID[\"IAU\",");
   const size_t older = wkt.find("AUTHORITY[\"IAU");  // AUTHORITY["IAU","49901"], ["IAU_2015","…"]
   if (place == std::string_view::npos && older == std::string_view::npos) return nullptr;
@@ -117,7 +118,8 @@ const IauBody* iau_body_of(std::string_view wkt) {
   code.remove_prefix(std::min(code.find(','), code.size()));
   code.remove_prefix(std::min(code.find_first_of("0123456789"), code.size()));
   const auto number = leading_number(code);
-  const long base = number ? static_cast<long>(number->first) / systems * systems : 0;
+  if (!number || !(number->first < beyond_codes)) return nullptr;
+  const long base = static_cast<long>(number->first) / systems * systems;
   const auto found = std::ranges::find(iau_bodies(), base, &IauBody::code);
   return found == iau_bodies().end() ? nullptr : &*found;
 }
@@ -132,6 +134,10 @@ std::string advice_for(std::string_view wkt) {
 
 /// Rows of maps are planetocentric; GEODCRS with spherical coordinates is so on ellipsoids too.
 void require_planetocentric(const Body& body) {
+  if (body.wkt.find("CS[Cartesian") != std::string::npos)
+    throw BodyError("the WKT " + body.name +
+                    " is of a geocentric system, in x, y and z, which has no latitudes: " +
+                    advice_for(body.wkt));
   const Vector3 axes = body.semi_axes / body.unit;
   if (axes.x() == axes.z() || body.wkt.find("CS[spherical") != std::string::npos) return;
   throw BodyError("the WKT " + body.name +
