@@ -107,6 +107,31 @@ TEST_CASE("radial: fillers that fold give way, the surface stays") {
     CHECK((result.map.point(w) == directions.point(w)) == (w != v));
 }
 
+TEST_CASE("radial: fillers that fold give way however many they are") {
+  // A cap closes a hole, and lies in it the other way round.
+  TriangleMesh mesh = bumpy(3);
+  const TriangleMesh sphere = icosphere(3);
+  FillerMarks fillers(static_cast<size_t>(mesh.face_count()), 0);
+  std::vector<char> of_surface(static_cast<size_t>(mesh.vertex_count()), 0);
+  for (Face f = 0; f < mesh.face_count(); ++f) {
+    double height = 0;
+    for (int k = 0; k < 3; ++k) height += sphere.positions(mesh.triangles(f, k), 2) / 3;
+    fillers[static_cast<size_t>(f)] = height > 0.3;
+    for (int k = 0; height <= 0.3 && k < 3; ++k)
+      of_surface[static_cast<size_t>(mesh.triangles(f, k))] = 1;
+  }
+  for (Vertex v = 0; v < mesh.vertex_count(); ++v)
+    if (!of_surface[static_cast<size_t>(v)]) mesh.positions(v, 0) *= -1;
+  const SphereMap directions = radial_directions(mesh);
+  const Certificate folded = certify(Topology(mesh), directions);
+  REQUIRE(folded.fold_count() > 0.2 * mesh.face_count());
+  const Parameterization result =
+      parameterize(mesh, {.method = Method::Radial, .fillers = fillers, .filler_share = 0.1});
+  CHECK(result.certificate.bijective());
+  CHECK_FALSE(result.made_anew);
+  CHECK(result.radial->moved == 0);
+}
+
 TEST_CASE("radial: a body that hangs over everywhere is mapped anew, turned to its directions") {
   const TriangleMesh mesh = random_sphere_mesh(400, 3);
   const Parameterization result = parameterize(mesh, {.method = Method::Radial});

@@ -27,14 +27,11 @@ bool only_fillers_fold(const MapInProgress& work) {
 
 void untangle_folds(MapInProgress& work) {
   if (work.result.map.points.rows() == 0) return;  // the method made no map
-  const double most = work.options.method == Method::Radial ? most_radial_folds : most_folds;
-  if (static_cast<double>(work.result.certificate.fold_count()) > most * work.topology.face_count())
-    return;
   UntangleOptions untangling{.lambda = work.options.energy.lambda,
                              .threads = work.options.threads,
                              .progress = work.options.progress};
   if (work.result.poles) untangling.pinned = {work.result.poles->north, work.result.poles->south};
-  if (only_fillers_fold(work)) {  // which give way, where there is room among what is theirs
+  if (only_fillers_fold(work)) {  // however many, they give way where there is room among them
     UntangleOptions of_fillers = untangling;
     of_fillers.pinned = surface_vertices(work);
     SphereMap map = untangle(work.topology, work.source(), work.result.map, of_fillers).map;
@@ -43,6 +40,9 @@ void untangle_folds(MapInProgress& work) {
       return work.accept("untangling", std::move(map));
     }
   }
+  const double most = work.options.method == Method::Radial ? most_radial_folds : most_folds;
+  if (static_cast<double>(work.result.certificate.fold_count()) > most * work.topology.face_count())
+    return;
   SphereMap map = untangle(work.topology, work.source(), work.result.map, untangling).map;
   work.record("untangling", map);
   work.accept("untangling", std::move(map));
