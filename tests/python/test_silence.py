@@ -319,6 +319,27 @@ def test_more_coefficients_than_vertices_are_told():
     mapped.spharm(int(len(V) ** 0.5), least_squares=False)
 
 
+def test_an_integral_that_has_not_settled_is_told():
+    vertices, faces = potato(2)
+    middle = vertices[faces[0]].mean(axis=0)  # of a face in which a small one lies, and in that another
+    inner = [middle + size * (vertices[faces[0]] - middle) for size in (0.08, 0.04)]
+    n = len(vertices)
+    loops = [faces[0], np.arange(n, n + 3), np.arange(n + 3, n + 6)]
+    made = [loops[2]]
+    for out, within in zip(loops, loops[1:]):
+        for k, after in ((0, 1), (1, 2), (2, 0)):
+            made += [[out[k], out[after], within[after]], [out[k], within[after], within[k]]]
+    vertices = np.concatenate([vertices, *inner])
+    peak = np.arange(len(vertices)) >= n + 3
+    mapped = sp.map(vertices, np.concatenate([faces[1:], made]), method="radial", values={"peak": peak * 1.0})
+    with pytest.warns(sp.LossWarning, match="the integral has not settled") as told:
+        mapped.spharm(5, values=["peak"], least_squares=False)
+    assert len(told) == 1
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        mapped.spharm(5, least_squares=False)
+
+
 def test_poles_and_meridian_come_back_from_a_file(tmp_path):
     made = sp.map(np.concatenate([[[9, 9, 9]], V]), F + 1, meridian=7, repair=True)
     assert made.poles is not None and made.meridian == 7

@@ -50,7 +50,11 @@ py::dict expand(const Mapped& mapped, int degree, const std::vector<std::string>
   dict["plain_rms"] = found.plain_position_rms();
   dict["diagonal"] = found.diagonal;
   dict["ellipsoid"] = py::make_tuple(axes.x(), axes.y(), axes.z());
-  dict["doubts"] = found.alignment ? doubts_about(*found.alignment) : std::vector<std::string>();
+  std::vector<std::string> doubts;
+  if (found.alignment) doubts = doubts_about(*found.alignment);
+  if (found.fit.quadrature_change.value_or(0) > settled_quadrature)
+    doubts.emplace_back("the integral has not settled with the most nodes that there are");
+  dict["doubts"] = doubts;
   dict["power"] = owning_rows(power_per_degree(found.fit.coefficients));
   dict["values"] = owning_rows(std::move(found.values));
   dict["coefficients"] = owning_rows(std::move(found.fit.coefficients));
