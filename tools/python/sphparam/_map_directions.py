@@ -64,7 +64,8 @@ class MapDirections(MapFacts):
             return heaviest(table[corners], weights)
         parts = np.where(weights == 0, 0, table[corners]) * weights
         mixed: Array = parts.sum(axis=1)
-        return (np.rint(mixed) if table.dtype.kind in "iu" else mixed).astype(table.dtype, copy=False)
+        rounded: Array = np.rint(mixed) if table.dtype.kind in "iu" else mixed
+        return rounded.astype(table.dtype, copy=False)
 
     def _named(self, name: str) -> Array:
         if name not in self.values:
