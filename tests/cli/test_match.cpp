@@ -289,6 +289,10 @@ TEST_CASE("match: what makes no sense is refused, and nothing is written") {
   CHECK(alike.code == 2);
   CHECK_THAT(alike.err, Contains("--alike: --landmarks say already"));
   // Before the meshes are read, which may take minutes to map.
+  const Ended nowhere = sphparam_program(
+      {"match", creatures.first, creatures.folder / "nowhere.obj", "-o", creatures.out});
+  CHECK(nowhere.code == 3);
+  CHECK_THAT(nowhere.err, Contains("nowhere.obj: No such file") && !Contains("mapped now"));
   write_bytes(creatures.pairs, "0 x\n");
   write_bytes(creatures.first, "no mesh");
   CHECK_THAT(creatures.match().err, Contains("pairs.txt:1:"));

@@ -2,7 +2,9 @@
 
 #include "sphparam/correspondence/match.h"
 
+#include <filesystem>
 #include <optional>
+#include <system_error>
 
 #include "arguments/limits.h"
 #include "arguments/match_arguments.h"
@@ -13,6 +15,8 @@
 #include "sphparam/correspondence/feature_file.h"
 #include "sphparam/correspondence/landmark_file.h"
 #include "sphparam/correspondence/matched_files.h"
+#include "sphparam/io/paths.h"
+#include "sphparam/io/read_options.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/io/vertex_data.h"
 #include "sphparam/records/match_record.h"
@@ -107,10 +111,22 @@ std::optional<CarriedFidelity> fidelity(const MatchArguments& arguments, const M
   return measure_carried(match.map, session.threads(), session.progress());
 }
 
+/// Before the first is mapped, which may take minutes. Throws: ReadError.
+void require_files(const MatchArguments& arguments) {
+  for (const std::string& path : {arguments.first, arguments.second}) {
+    std::error_code hidden;
+    if (is_stream(path) ||
+        std::filesystem::status(path, hidden).type() != std::filesystem::file_type::not_found)
+      continue;
+    throw ReadError(path, std::make_error_code(std::errc::no_such_file_or_directory).message());
+  }
+}
+
 int run_match(MatchArguments& arguments) {
   require_sensible(arguments);
   Session session(arguments);
   const std::optional<LandmarkFile> landmarks = landmark_file(arguments);
+  require_files(arguments);
   MappedMesh first =
       read_side("A", arguments.first, arguments.first_sphere, arguments.repair, session);
   const MappedMesh second =
