@@ -188,6 +188,9 @@ TEST_CASE(
                Contains("  --repair --weld ") && Contains("drops 0 % of the area, not"));
     CHECK_THAT(repair.err, !Contains("--component"));
     if (share < 0.05) CHECK(repair.code == 0);
+    const Json told = Json::parse(sphparam_program({"info", mesh, "--json", "-"}).out)["repair"];
+    CHECK(told["mends"] == (repair.code == 0));
+    CHECK_THAT(told["mends_with"].get<std::string>(), Contains("--repair --weld "));
   }
 }
 

@@ -175,6 +175,9 @@ TEST_CASE("try_repair: what the rounding of float32 tears is welded, however few
     CHECK_THAT(repair_advice(trial, torn.path), StartsWith("  --repair --weld "));
     CHECK(trial.options.weld_share <= 1e-6);
     CHECK(trial.options.component == 0);
+    CHECK_FALSE(trial.mends_unasked());
+    CHECK(mends_unasked(torn, trial) == mended(torn, {}).inspection.is_sphere());
+    CHECK((share > 0.01 || mends_unasked(torn, trial)));
     const MeshSource whole = repaired(torn, trial.options);
     CHECK(whole.file.mesh.vertex_count() == ball.vertex_count());
     CHECK(whole.added_share == 0);
@@ -231,12 +234,14 @@ TEST_CASE("try_repair_beyond: the component and the kind of handle that were cho
 TEST_CASE("try_repair_unasked: says of unasked repair what the whole trial says") {
   const MeshSource open = source_of(open_ball(), "a.ply");
   CHECK(try_repair_unasked(open).trial.mends_unasked());
+  CHECK(mends_unasked(open, try_repair(open)));
   CHECK(try_repair_unasked(open).mended->inspection.is_sphere());
   CHECK(try_repair_unasked(open).trial.actions.size() == try_repair(open).actions.size());
   for (const auto& mesh : {two_balls(), bumped_torus(8, 20, 0.4, 0, 1)}) {
     const MeshSource source = source_of(mesh, "b.ply");
     REQUIRE(try_repair(source).can_mend());
     CHECK_FALSE(try_repair(source).mends_unasked());
+    CHECK_FALSE(mends_unasked(source, try_repair(source)));
     CHECK_FALSE(try_repair_unasked(source).trial.mends_unasked());
     CHECK_FALSE(try_repair_unasked(source).trial.can_mend());
     CHECK_FALSE(try_repair_unasked(source).mended);

@@ -201,6 +201,7 @@ TEST_CASE("survey: components are tried with what all of them take, pieces of a 
   const Meshes meshes;
   meshes.write("ringed.off", joined(icosphere(2), Meshes::torus(), {20, 20, 20}));
   meshes.write("soup.ply", shaken_apart(icosphere(3), 1e-5));
+  meshes.write("torn.obj", torn_by_rounding(icosphere(4), 0.005));
   const Survey survey = survey_folder(meshes.folder.string(), {.picture_size = 0});
   const SurveyedMesh& ringed = named(survey, "ringed.off");
   REQUIRE(ringed.best_way());
@@ -211,6 +212,13 @@ TEST_CASE("survey: components are tried with what all of them take, pieces of a 
   REQUIRE(soup.best_way());
   CHECK(soup.best_way()->options.starts_with("--repair --weld 0.0"));
   CHECK(soup.best_way()->area_share == 1);
+  // What a repair mends unasked it mends, though a weld spares most of what it puts in.
+  const SurveyedMesh& torn = named(survey, "torn.obj");
+  CHECK(torn.end == SurveyEnd::MapsMended);
+  REQUIRE(torn.ways.size() >= 2);
+  CHECK(torn.ways[0].options.starts_with("--repair --weld "));
+  CHECK(torn.ways[1].options == "--repair");
+  CHECK(torn.ways[1].certified);
 }
 
 TEST_CASE("survey: of what cannot be mapped, or not as a whole, the page says how to wrap it") {

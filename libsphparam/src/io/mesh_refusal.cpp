@@ -353,6 +353,12 @@ UnaskedRepair try_repair_unasked(const MeshSource& source) {
   return result;
 }
 
+bool mends_unasked(const MeshSource& source, const RepairTrial& trial) {
+  if (trial.mends_unasked()) return true;
+  const bool may_only_spare = trial.can_mend() && trial.options.weld_share >= 0;
+  return may_only_spare && try_repair_unasked(source).mended.has_value();
+}
+
 void refuse(const MeshSource& source) {
   std::optional<RepairTrial> trial = affordable_trial(source);
   std::optional<PartsTrial> parts = affordable_parts(source, trial);

@@ -114,11 +114,11 @@ Json closed_json(const std::optional<ClosedHoles>& closed) {
 }
 
 /// What --repair would do; null for a mesh that needs none.
-Json trial_json(const std::optional<RepairTrial>& trial) {
+Json trial_json(const MeshSource& source, const std::optional<RepairTrial>& trial) {
   if (!trial) return nullptr;
   Json remaining = Json::array();
   for (const MeshDefect& defect : trial->remaining) remaining.push_back(defect_json(defect));
-  return {{"mends", trial->mends_unasked()},
+  return {{"mends", mends_unasked(source, *trial)},
           {"mends_with", trial->can_mend() ? Json(options_line(trial->options)) : Json()},
           {"actions", repairs_json(trial->actions)},
           {"handles", handles_json(trial->handles)},
@@ -138,7 +138,7 @@ std::string to_json(const InspectionRecord& record) {
                   {"input", input_json(record.source)},
                   {"inspection", inspection},
                   {"fillers", closed_json(closed)},
-                  {"repair", trial_json(record.repair)},
+                  {"repair", trial_json(record.source, record.repair)},
                   {"welded", record.source.welded || is_soup(record.source.file)},
                   {"provenance", pairs_json(provenance_in(record.source.file))},
                   {"notes", record.source.notes},

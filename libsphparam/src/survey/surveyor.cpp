@@ -22,6 +22,7 @@
 namespace sphparam {
 namespace {
 
+constexpr const char* unasked_way = "--repair";
 constexpr const char* components_way = "--repair --all-components";
 constexpr const char* no_memory = "there is not enough memory for it";
 
@@ -88,6 +89,8 @@ class Surveyor {
     mesh_.repairs = messages(trial.actions);
     if (trial.can_mend()) {
       try_way(source, trial);
+      if (!trial.mends_unasked() && mends_unasked(source, trial))
+        try_besides(unasked_way, [&] { try_way(source, try_repair_unasked(source).trial); });
     } else {
       mesh_.reasons = messages(trial.remaining);
     }
@@ -203,7 +206,9 @@ class Surveyor {
 
   void conclude(const RepairTrial& trial) {
     const auto is_certified = [](const SurveyedWay& way) { return way.certified; };
-    if (trial.mends_unasked() && mesh_.ways.front().certified) {
+    const auto is_unasked = [](const SurveyedWay& way) { return way.options == unasked_way; };
+    const auto unasked = std::find_if(mesh_.ways.begin(), mesh_.ways.end(), is_unasked);
+    if (unasked != mesh_.ways.end() && unasked->certified) {
       mesh_.end = SurveyEnd::MapsMended;
     } else if (std::any_of(mesh_.ways.begin(), mesh_.ways.end(), is_certified)) {
       mesh_.end = SurveyEnd::MapsIfAsked;

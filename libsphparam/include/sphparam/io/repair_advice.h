@@ -24,6 +24,10 @@ struct UnaskedRepair {
 /// No more than what repair does unasked, once: whether that is enough.
 UnaskedRepair try_repair_unasked(const MeshSource& source);
 
+/// Whether repair mends the mesh unasked, as its trial may not tell: one that welds may only spare
+/// what is put in and dropped otherwise. Cost: then one more repair.
+bool mends_unasked(const MeshSource& source, const RepairTrial& trial);
+
 /// "--repair --all-components --max-handle 46.1%": what `map` is given to mend and map each part.
 std::string all_components_line(const RepairOptions& options);
 
