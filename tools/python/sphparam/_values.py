@@ -192,6 +192,11 @@ class Values(Mapping[str, "Array"]):
                 return column
         raise KeyError(name)
 
+    def __setitem__(self, name: str, array: Array) -> None:
+        """Only packages that put back what they have found may (meshio does): nothing changes."""
+        if array is not self._found.get(name):
+            raise TypeError("values cannot be changed; dict(…) of them can")
+
     def __iter__(self) -> Iterator[str]:
         return iter(self._found)
 
