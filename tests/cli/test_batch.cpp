@@ -431,6 +431,22 @@ TEST_CASE("batch: a file that every shape would write is told before anything is
   CHECK(shapes.plan({"map", "--", "spharm", "--csv", "/dev/null"}).code == 0);
 }
 
+TEST_CASE("batch: two steps that write one file are told before anything is planned") {
+  const Shapes shapes(1);
+  const Ended named = shapes.plan({"map", "--", "spharm", "--degree", "3", "--", "spharm"});
+  CHECK(named.code == 2);
+  CHECK_THAT(named.err, Contains("would replace ball0_spharm.csv of `spharm {id}.sph.ply --degree "
+                                 "3 --csv {id}_spharm.csv`"));
+  CHECK_THAT(named.err, Contains("as in {id}_3.csv"));
+  const Ended same = shapes.plan({"map", "-o", "a.ply", "--", "repair", "a.ply", "-o", "./a.ply"});
+  CHECK(same.code == 2);
+  CHECK_THAT(same.err, Contains("would replace ./a.ply of `map {input} -o a.ply`"));
+  const std::vector<std::string> apart = {
+      "map", "--",   "spharm", "--degree", "3",  "--",   "spharm", "--csv",   "b.csv",
+      "--",  "bake", "--map",  "mask",     "--", "bake", "--map",  "position"};
+  CHECK(shapes.plan(apart).code == 0);
+}
+
 TEST_CASE("batch: files of a list between commas are named from the root, and hashed") {
   const Shapes shapes(1);
   const auto label_of = [](const std::string& vertex) {
