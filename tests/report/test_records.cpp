@@ -80,7 +80,7 @@ TEST_CASE("map_record: what was asked for, what came out, by the numbers of the 
         "sphparam,command,input,inspection,repairs,handles,added,components,options,account,like,"
         "stages,"
         "made_by,made_anew,poles,meridian,radial,alignment,pole_residuals,pins,lambda,"
-        "filler_share,balance,energy_gap,energy_cost,certificate,"
+        "filler_share,balance,energy,energy_gap,energy_cost,certificate,"
         "distortion,chart,outputs,warnings,notes,seconds");
   REQUIRE(result.energy_gap);
   CHECK(json["energy_gap"] == *result.energy_gap);
@@ -133,6 +133,27 @@ TEST_CASE("map_record: the input is what was read, and a shape inside out is war
   CHECK(json["warnings"][1] == "another");
 }
 
+TEST_CASE("map_record: the energy of the finished map, over an isometry's, at the λ that is told") {
+  MeshSource source = source_of(octahedron());
+  source.topology = Topology(source.file.mesh);
+  Parameterization result;
+  result.map.points = source.file.mesh.positions;
+  ParameterizeOptions options;
+  const auto told = [&] {
+    const Json json =
+        Json::parse(to_json(MapRecord{.source = source, .options = options, .result = result}));
+    return json["energy"].get<double>();
+  };
+  const double d = std::numbers::sqrt3 / std::numbers::pi, s = 1 / std::numbers::pi;
+  CHECK(told() == Approx((d + (s * s + 1) / 2) / s / 2));
+  result.balance = BalanceRecord{4, 0.1, true};
+  CHECK(told() == Approx((d + 2 * (s * s + 1)) / s / 5));
+  options.energy.kind = EnergyKind::SymmetricDirichlet;
+  CHECK(told() == Approx(d * (1 + 1 / (s * s)) / 2));
+  source.file.mesh.positions *= 1e-200;
+  CHECK(told() == Approx(d * (1 + 1 / (s * s)) / 2));
+}
+
 TEST_CASE("map_record: a method of others has its account, and no weight of ours") {
   const MeshSource source = source_of(octahedron());
   const ParameterizeOptions options;
@@ -150,6 +171,7 @@ TEST_CASE("map_record: a method of others has its account, and no weight of ours
   CHECK(keys_of(json["options"]) == "method,repair,repair_map");
   CHECK(json["options"]["method"] == "tangential");
   CHECK(json["lambda"].is_null());
+  CHECK(json["energy"].is_null());
   CHECK(json["energy_gap"].is_null());
   CHECK(json["certificate"]["one_to_one"] == false);
   CHECK(json["chart"].is_null());

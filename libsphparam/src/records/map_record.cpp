@@ -1,8 +1,10 @@
 #include "sphparam/records/map_record.h"
 
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "io/attributes/corner_colours.h"
+#include "mesh/unit_size.h"
 #include "records/json_parts.h"
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/names.h"
@@ -47,13 +49,31 @@ Json pole_residuals_json(const std::vector<double>& residuals) {
   return {{"north", residuals[0]}, {"south", residuals[1]}};
 }
 
-/// The λ that the map is minimised for, where one is.
+/// The energy that the map is minimised for, where one is.
+std::optional<DistortionEnergy> energy_of(const MapRecord& record) {
+  if (record.account || record.options.method == Method::Paper) return std::nullopt;
+  DistortionEnergy energy = record.options.energy;
+  if (record.result.balance) energy.lambda = record.result.balance->lambda;
+  return energy;
+}
+
 Json lambda_json(const MapRecord& record) {
-  const ParameterizeOptions& options = record.options;
-  const bool minimises = !record.account && options.method != Method::Paper &&
-                         options.energy.kind == EnergyKind::AngleAndArea;
-  if (!minimises) return nullptr;
-  return record.result.balance ? record.result.balance->lambda : options.energy.lambda;
+  const std::optional<DistortionEnergy> energy = energy_of(record);
+  return energy && energy->kind == EnergyKind::AngleAndArea ? Json(energy->lambda) : Json();
+}
+
+/// Of the finished map, over that of an isometry.
+Json energy_json(const MapRecord& record) {
+  const std::optional<DistortionEnergy> energy = energy_of(record);
+  const std::optional<Topology>& topology = record.source.topology;
+  const SphereMap& map = record.result.map;
+  if (!energy || !topology || map.points.rows() == 0) return nullptr;
+  const TriangleMesh& given = record.source.file.mesh;
+  const std::optional<Rescaled> rescaled = at_unit_size(given);
+  const int threads = record.options.threads;
+  const RestTriangles rest = measure_source(rescaled ? rescaled->mesh : given, threads);
+  const double of_isometry = 4 * std::numbers::pi * energy_density(*energy, 1, 1);
+  return distortion_energy(*topology, rest, map, *energy, threads) / of_isometry;
 }
 
 Json optional_json(const std::optional<double>& number) { return number ? Json(*number) : Json(); }
@@ -207,6 +227,7 @@ std::string to_json(const MapRecord& record) {
                {"lambda", lambda_json(record)},
                {"filler_share", optional_json(record.result.filler_share)},
                {"balance", balance_json(record.result.balance)},
+               {"energy", energy_json(record)},
                {"energy_gap", optional_json(record.result.energy_gap)},
                {"energy_cost", record.result.pole_cost},
                {"certificate", certificate_json(record.result.certificate)},
