@@ -1,4 +1,6 @@
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
 #include <random>
 #include <stdexcept>
 
@@ -181,6 +183,73 @@ TEST_CASE("mesh_writer: OFF carries normals, colours and texture coordinates of 
   CHECK(back.format == "STCNOFF");
   for (const char* name : {"nx", "ny", "nz", "red", "green", "blue", "s", "t"})
     CHECK(values_of(back.find_vertex_property(name)) == values_of(file.find_vertex_property(name)));
+}
+
+TEST_CASE("mesh_writer: OFF has colours as bytes where all are, else as fractions") {
+  const auto coloured = [](ScalarType type, double value, ScalarType of_blue) {
+    MeshFile file = read(tetrahedron_obj);
+    for (const char* const name : {"red", "green", "blue"})
+      file.set_vertex_property({name, type, std::vector<double>(4, value)});
+    file.vertex_properties.back().type = of_blue;
+    return serialise_off(file);
+  };
+  using enum ScalarType;
+  CHECK(contains(coloured(Uint8, 51, Uint8), "\n1 1 1 51 51 51\n"));
+  CHECK(contains(coloured(Int32, 51, Uint8), "\n1 1 1 51 51 51\n"));
+  CHECK(contains(coloured(Uint16, 13107, Uint16), "\n1 1 1 0.2 0.2 0.2\n"));
+  CHECK(contains(coloured(Int32, 510, Int32), "\n1 1 1 2.0 2.0 2.0\n"));
+  CHECK(contains(coloured(Uint8, 127.5, Uint8), "\n1 1 1 0.5 0.5 0.5\n"));
+  CHECK(contains(coloured(Uint8, 1, Float32), "\n1 1 1 0.003921569 0.003921569 1.0\n"));
+  CHECK(contains(coloured(Float32, 1, Float32), "\n1 1 1 1.0 1.0 1.0\n"));
+}
+
+TEST_CASE("mesh_writer: in OBJ faces without a material do not get that of the faces before") {
+  MeshFile file = read(tetrahedron_obj);
+  file.materials = {"a", "b"};
+  file.set_face_property({"material", ScalarType::Int32, {0, -1, -1, 1}});
+  const std::string text = serialise_obj(file);
+  CHECK(contains(text, "usemtl a\nf 1 3 2\nusemtl (null)\nf 1 2 4\nf 1 4 3\nusemtl b\nf 2 3 4\n"));
+  const MeshFile back = read(text);
+  CHECK(back.materials == file.materials);
+  CHECK(values_of(back.find_face_property("material")) == std::vector<double>{0, -1, -1, 1});
+  file.set_face_property({"material", ScalarType::Int32, {-1, -1, 0, 2}});
+  CHECK(contains(serialise_obj(file),
+                 "\nf 1 3 2\nf 1 2 4\nusemtl a\nf 1 4 3\nusemtl (null)\nf 2 3 4\n"));
+}
+
+TEST_CASE("mesh_writer: polygons of more corners than a byte can count come back from PLY") {
+  constexpr int most = 300;
+  const double turn = 2 * std::numbers::pi / most;
+  std::string text;
+  for (const int z : {0, 1})
+    for (int i = 0; i < most; ++i)
+      text += "v " + std::to_string(std::cos(turn * i)) + " " + std::to_string(std::sin(turn * i)) +
+              " " + std::to_string(z) + "\n";
+  text += "vt 0.5 0.25\n";
+  Polygons prism;
+  const auto add = [&](const std::vector<int>& corners) {
+    text += "f";
+    for (const int v : corners) {
+      text += " " + std::to_string(v + 1) + "/1";
+      prism.add_corner(v);
+    }
+    text += "\n";
+    REQUIRE(prism.close_polygon({}).empty());
+  };
+  std::vector<int> below, above;
+  for (int i = 0; i < most; ++i) {
+    below.push_back(most - 1 - i);
+    above.push_back(most + i);
+  }
+  add(below);
+  add(above);
+  for (int i = 0; i < most; ++i) add({i, (i + 1) % most, most + (i + 1) % most, most + i});
+  const MeshFile file = read(text);
+  const MeshFile back = read(serialise_mesh("a.ply", file, {.faces = &prism}));
+  CHECK(back.polygons == most + 2);
+  CHECK(back.mesh.positions == file.mesh.positions);
+  CHECK(back.mesh.triangles == file.mesh.triangles);
+  CHECK(*back.corner_texcoords == *file.corner_texcoords);
 }
 
 TEST_CASE("mesh_writer: line ends in comments and names cannot break a header") {

@@ -58,6 +58,19 @@ TEST_CASE("mz3: colours without alpha are opaque, and a byte after them is told"
         std::vector<std::string>{"data after the end of the mesh ignored"});
 }
 
+TEST_CASE("mz3: colours of any type are bytes, the brightest of the type 255") {
+  using enum ScalarType;
+  for (const auto& [type, value] :
+       {std::pair{Uint8, 51.0}, {Int32, 51.0}, {Uint16, 13107.0}, {Float32, 0.2}, {Float64, 0.2}}) {
+    MeshFile file = coloured_tetrahedron();
+    for (const char* const name : {"red", "green", "blue", "alpha"})
+      file.set_vertex_property({name, type, std::vector<double>(4, value)});
+    const MeshFile back = read(serialise_mz3(file));
+    for (const char* const name : {"red", "alpha"})
+      CHECK(values_of(back.find_vertex_property(name)) == std::vector<double>(4, 51));
+  }
+}
+
 TEST_CASE("mz3: layers that need it have 64 bits, and names are told to be lost") {
   MeshFile file = coloured_tetrahedron();
   file.set_vertex_property({"thickness", ScalarType::Float64, {0.1, 0.2, 0.3, 1e300}});

@@ -142,6 +142,33 @@ TEST_CASE("obj_reader: colours after the coordinates") {
   CHECK(weighted.notes.size() == 1);
 }
 
+TEST_CASE("obj_reader: colours of whole numbers up to 255 are bytes, where one is more than 1") {
+  const MeshFile bytes = read("v 0 0 0 255 1 0\nv 1 0 0 0 0 0\nv 0 1 0 0 0 1\nf 1 2 3\n", "a.obj");
+  REQUIRE(bytes.find_vertex_property("red"));
+  CHECK(bytes.find_vertex_property("red")->type == sphparam::ScalarType::Uint8);
+  CHECK(values_of(bytes.find_vertex_property("red")) == std::vector<double>{255, 0, 0});
+  CHECK(values_of(bytes.find_vertex_property("blue")) == std::vector<double>{0, 0, 1});
+  CHECK(bytes.notes == std::vector<std::string>{"colours of vertices are whole numbers up to 255"});
+  for (const char* const first : {"1 1 0", "1 0.5 0", "2 0.5 0", "256 1 0", "2 -1 0"}) {
+    INFO(first);
+    const MeshFile fractions = read(
+        "v 0 0 0 " + std::string(first) + "\nv 1 0 0 0 0 0\nv 0 1 0 0 0 1\nf 1 2 3\n", "a.obj");
+    REQUIRE(fractions.find_vertex_property("red"));
+    CHECK(fractions.find_vertex_property("red")->type == sphparam::ScalarType::Float32);
+    CHECK(fractions.notes.empty());
+  }
+}
+
+TEST_CASE("obj_reader: (null) takes the material back") {
+  const MeshFile file = read(
+      three_vertices + "usemtl a\nf 1 2 3\nusemtl (null)\nf 1 2 3\nusemtl b\nf 1 2 3\n", "a.obj");
+  CHECK(file.materials == std::vector<std::string>{"a", "b"});
+  CHECK(values_of(file.find_face_property("material")) == std::vector<double>{0, -1, 1});
+  const MeshFile none = read(three_vertices + "usemtl (null)\nf 1 2 3\n", "a.obj");
+  CHECK(none.materials.empty());
+  CHECK_FALSE(none.find_face_property("material"));
+}
+
 TEST_CASE("obj_reader: materials are numbered in order of first use") {
   const MeshFile file = read(three_vertices +
                                  "mtllib no such file.mtl\nf 1 2 3\nusemtl red paint\n"

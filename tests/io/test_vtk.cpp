@@ -125,6 +125,22 @@ TEST_CASE("vtk: what is written is read back bit for bit, and written again the 
   CHECK(contains(serialise_legacy_vtk(file, {}), "\na%2520name%22<&> 1 42 short\n"));
 }
 
+TEST_CASE("vtk: colours that are neither bytes nor fractions keep their names") {
+  MeshFile file;
+  file.mesh = tetrahedron();
+  for (const char* const name : {"red", "green", "blue"})
+    file.vertex_properties.push_back({name, ScalarType::Uint16, {65535, 0, 300, 7}});
+  for (const char* const name : {"red", "green", "blue", "alpha"})
+    file.face_properties.push_back({name, ScalarType::Float32, {255, 0, 1, 0.5}});
+  for (const auto serialise : {serialise_legacy_vtk, serialise_xml_vtk}) {
+    const std::string bytes = serialise(file, {});
+    const MeshFile back = read(bytes);
+    check_same(file, back);
+    CHECK(losses_of_writing(file, back).empty());
+    CHECK(serialise(back, {}) == bytes);
+  }
+}
+
 TEST_CASE("vtk: a mesh of floats is written in floats, one without faces is read") {
   MeshFile file;
   file.mesh = tetrahedron();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "io/attributes/appearance.h"
 #include "io/files/byte_reader.h"
 #include "io/files/text_buffer.h"
 #include "io/formats/float32_points.h"
@@ -41,8 +42,8 @@ bool is_float32(const Property& property) {
 
 std::uint8_t as_byte(const Property& channel, std::size_t v) {
   constexpr double most = 255;
-  const double scale = channel.type == ScalarType::Uint8 ? 1 : most;
-  return static_cast<std::uint8_t>(std::clamp(std::round(channel.values[v] * scale), 0.0, most));
+  const double share = channel.values[v] / brightest(channel.type);
+  return static_cast<std::uint8_t>(std::clamp(std::round(most * share), 0.0, most));
 }
 
 void append_colours(std::string& bytes, const std::vector<const Property*>& colours,

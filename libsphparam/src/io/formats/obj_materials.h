@@ -11,6 +11,10 @@
 
 namespace sphparam {
 
+/// What exporters name where faces have no material, after faces that have one: a statement that
+/// takes the last one back does not exist.
+inline constexpr char obj_no_material[] = "(null)";
+
 /// What the libraries (.mtl) of an OBJ file say of its materials.
 struct ObjMaterials {
   std::vector<MaterialTexture> base_colours;   // one a name, or none where no library could be read

@@ -212,6 +212,10 @@ class ObjReader {
 
   void read_material() {
     const std::string name = one_line(scanner_.rest());
+    if (name == obj_no_material) {
+      material_ = no_index;
+      return;
+    }
     const auto [found, is_new] =
         material_ids_.try_emplace(name, static_cast<int>(file_.materials.size()));
     if (is_new) file_.materials.push_back(name);
@@ -279,6 +283,15 @@ class ObjReader {
         {"material", ScalarType::Int32, {material_of_.begin(), material_of_.end()}});
   }
 
+  /// OBJ has fractions; what some write instead would be white all over.
+  bool colours_are_bytes() const {
+    const auto is_byte = [](float value) {
+      return holds_exactly(ScalarType::Uint8, static_cast<double>(value));
+    };
+    return std::ranges::all_of(colours_, is_byte) &&
+           std::ranges::any_of(colours_, [](float value) { return value > 1; });
+  }
+
   void add_colours() {
     if (colour_channels_ == 0) return;
     if (coloured_ != vertices_.count) {
@@ -287,8 +300,10 @@ class ObjReader {
       return;
     }
     const char* const names[] = {"red", "green", "blue", "alpha"};
+    const bool bytes = colours_are_bytes();
+    if (bytes) file_.notes.push_back("colours of vertices are whole numbers up to 255");
     for (std::size_t channel = 0; channel < colour_channels_; ++channel) {
-      Property colour{names[channel], ScalarType::Float32, {}};
+      Property colour{names[channel], bytes ? ScalarType::Uint8 : ScalarType::Float32, {}};
       for (std::size_t i = channel; i < colours_.size(); i += colour_channels_)
         colour.values.push_back(colours_[i]);
       file_.vertex_properties.push_back(std::move(colour));

@@ -15,8 +15,9 @@ bool looks_like_obj(std::string_view bytes);
 
 /// Reads a Wavefront OBJ file.
 ///
-/// Kept: v with optional colours (x y z r g b [a]), vt per corner, vn per vertex where each vertex
-/// has one normal and per corner where not, polygons, usemtl as the face property `material`, the
+/// Kept: v with optional colours (x y z r g b [a], fractions; whole numbers up to 255 where one is
+/// more than 1), vt per corner, vn per vertex where each vertex has one normal and per corner where
+/// not, polygons, usemtl as the face property `material` (none where it says "(null)"), the
 /// comments at the top; where `folder` is given, the base colours of materials from their libraries
 /// (obj_materials.h), which are looked for below it. Told as not carried: groups, objects and
 /// smoothing groups where there are several, lines, points, free-form geometry, libraries that are

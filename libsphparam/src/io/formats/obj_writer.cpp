@@ -7,6 +7,7 @@
 
 #include "io/attributes/appearance.h"
 #include "io/files/text_buffer.h"
+#include "io/formats/obj_materials.h"
 #include "io/polygons/distinct_rows.h"
 #include "sphparam/io/polygons.h"
 
@@ -85,16 +86,24 @@ void put_vertices(TextBuffer& text, const MeshFile& file) {
   }
 }
 
+constexpr int no_material = -1;
+
+int material_of(const MeshFile& file, const Property* materials, int corner) {
+  if (!materials) return no_material;
+  const double material = materials->values[corner / corner_count];
+  const bool is_one = material >= 0 && material < static_cast<double>(file.materials.size());
+  return is_one ? static_cast<int>(material) : no_material;
+}
+
 void put_faces(TextBuffer& text, const MeshFile& file, const WrittenFaces& faces,
                const std::vector<int>& texcoords, const std::vector<int>& normals) {
   const Property* const materials = file.find_face_property("material");
-  int current = -1;
+  int current = no_material;
   for (std::size_t f = 0; f < faces.count(); ++f) {
-    const int triangle = faces.corners[faces.starts[f]] / corner_count;
-    const int material = materials ? static_cast<int>(materials->values[triangle]) : -1;
-    if (material != current && material >= 0 &&
-        material < static_cast<int>(file.materials.size())) {
-      text << "usemtl " << one_line(file.materials[material]) << '\n';
+    const int material = material_of(file, materials, faces.corners[faces.starts[f]]);
+    if (material != current) {
+      const bool is_one = material != no_material;
+      text << "usemtl " << (is_one ? one_line(file.materials[material]) : obj_no_material) << '\n';
       current = material;
     }
     text << 'f';

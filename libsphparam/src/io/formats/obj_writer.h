@@ -8,7 +8,8 @@
 namespace sphparam {
 
 /// A text OBJ in shortest round-trip doubles: positions, colours, texture coordinates and normals
-/// (of vertices or of corners), materials by name, comments. Other properties have no place in it.
+/// (of vertices or of corners), materials by name (faces without one after others: "(null)"),
+/// comments. Other properties have no place in it.
 std::string serialise_obj(const MeshFile& file);
 
 /// The same with polygons for faces: reading it gives the mesh with these polygons cut. Requires:

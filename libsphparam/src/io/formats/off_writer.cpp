@@ -1,9 +1,10 @@
 #include "io/formats/off_writer.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
 
+#include "io/attributes/appearance.h"
 #include "io/files/text_buffer.h"
 
 // One line a vertex, one a face.
@@ -19,28 +20,51 @@ std::vector<const Property*> find_colours(const std::vector<Property>& propertie
   return colours.empty() ? find_all(properties, std::array{"red", "green", "blue"}) : colours;
 }
 
-/// Bytes stay whole numbers; fractions get a point, which is what tells them apart in OFF.
-void put_off_colour(TextBuffer& text, const Property& colour, Eigen::Index row) {
-  const double value = colour.values[row];
-  if (colour.type == ScalarType::Uint8 && value == std::rint(value)) {
-    text << ' ' << static_cast<int>(value);
-    return;
+/// Colours as OFF has them, all of them bytes or all fractions: which they are is told by a point
+/// in one of them.
+class WrittenColours {
+ public:
+  explicit WrittenColours(const std::vector<Property>& properties)
+      : channels_(find_colours(properties)),
+        are_bytes_(std::ranges::all_of(channels_, [](const Property* channel) {
+          return brightest(channel->type) == brightest(ScalarType::Uint8) &&
+                 std::ranges::all_of(channel->values, [](double value) {
+                   return holds_exactly(ScalarType::Uint8, value);
+                 });
+        })) {}
+
+  bool empty() const { return channels_.empty(); }
+
+  void put(TextBuffer& text, Eigen::Index row) const {
+    for (const Property* channel : channels_) {
+      const double value = channel->values[row];
+      text << ' ';
+      if (are_bytes_)
+        text << static_cast<int>(value);
+      else
+        put_fraction(text, static_cast<float>(value / brightest(channel->type)));
+    }
   }
-  char digits[32];
-  const auto [stop, error] =
-      std::to_chars(digits, digits + sizeof digits, static_cast<float>(value));
-  const std::string_view number(digits, static_cast<std::size_t>(stop - digits));
-  text << ' ' << number;
-  if (number.find_first_of(".e") == std::string_view::npos) text << ".0";
-}
+
+ private:
+  static void put_fraction(TextBuffer& text, float value) {
+    char digits[32];
+    const auto [stop, error] = std::to_chars(digits, digits + sizeof digits, value);
+    const std::string_view number(digits, static_cast<std::size_t>(stop - digits));
+    text << number;
+    if (number.find_first_of(".e") == std::string_view::npos) text << ".0";
+  }
+
+  std::vector<const Property*> channels_;
+  bool are_bytes_;
+};
 
 }  // namespace
 
 std::string serialise_off(const MeshFile& file) {
   const auto normals = find_all(file.vertex_properties, std::array{"nx", "ny", "nz"});
   const auto texcoords = find_all(file.vertex_properties, std::array{"s", "t"});
-  const auto colours = find_colours(file.vertex_properties);
-  const auto face_colours = find_colours(file.face_properties);
+  const WrittenColours colours(file.vertex_properties), face_colours(file.face_properties);
 
   TextBuffer text(expected_text_bytes(file));
   text << (texcoords.empty() ? "" : "ST") << (colours.empty() ? "" : "C")
@@ -50,14 +74,14 @@ std::string serialise_off(const MeshFile& file) {
   for (Eigen::Index v = 0; v < file.mesh.vertex_count(); ++v) {
     for (int axis = 0; axis < 3; ++axis) text << (axis ? " " : "") << file.mesh.positions(v, axis);
     for (const Property* normal : normals) text << ' ' << normal->values[v];
-    for (const Property* colour : colours) put_off_colour(text, *colour, v);
+    colours.put(text, v);
     for (const Property* texcoord : texcoords) text << ' ' << texcoord->values[v];
     text << '\n';
   }
   for (Eigen::Index f = 0; f < file.mesh.face_count(); ++f) {
     text << '3';
     for (int k = 0; k < corner_count; ++k) text << ' ' << file.mesh.triangles(f, k);
-    for (const Property* colour : face_colours) put_off_colour(text, *colour, f);
+    face_colours.put(text, f);
     text << '\n';
   }
   return text.take();

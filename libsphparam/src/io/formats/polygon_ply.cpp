@@ -2,6 +2,7 @@
 
 #include "io/formats/polygon_ply.h"
 
+#include <algorithm>
 #include <bit>
 #include <vector>
 
@@ -42,6 +43,7 @@ class FaceRecords {
       : faces_(faces), corners_(corners_in(file.mesh.triangles, faces)) {
     add_list(lists_, "texcoord", file.corner_texcoords, file.corner_texcoord_type);
     add_list(lists_, "normal", file.corner_normals, file.corner_normal_type);
+    find_length_type();
     for (const Property& property : file.face_properties) {
       if (property.name == "source_face") continue;
       const auto count = static_cast<Eigen::Index>(property.values.size());
@@ -51,11 +53,10 @@ class FaceRecords {
   }
 
   std::string declarations() const {
-    std::string text = "element face " + std::to_string(faces_.count()) +
-                       "\nproperty list uchar int vertex_indices\n";
-    for (const CornerList& list : lists_) {
-      text += "property list uchar " + std::string(ply_name(list.type)) + " " + list.name + "\n";
-    }
+    std::string text = "element face " + std::to_string(faces_.count()) + "\n" + list_words() +
+                       "int vertex_indices\n";
+    for (const CornerList& list : lists_)
+      text += list_words() + std::string(ply_name(list.type)) + " " + list.name + "\n";
     for (size_t i = 0; i < properties_.size(); ++i) {
       text += "property " + std::string(ply_name(types_[i])) + " " +
               one_line(properties_[i]->name) + "\n";
@@ -65,7 +66,8 @@ class FaceRecords {
 
   std::size_t bytes() const {
     const auto faces = static_cast<std::size_t>(faces_.count());
-    std::size_t of_corner = sizeof(std::int32_t), of_face = 1 + lists_.size();
+    std::size_t of_corner = sizeof(std::int32_t),
+                of_face = size_in_bytes(length_type_) * (1 + lists_.size());
     for (const CornerList& list : lists_)
       of_corner += static_cast<std::size_t>(list.width) * size_in_bytes(list.type);
     for (const ScalarType type : types_) of_face += size_in_bytes(type);
@@ -75,10 +77,10 @@ class FaceRecords {
   void append_to(std::string& bytes) const {
     for (std::int64_t p = 0; p < faces_.count(); ++p) {
       const int degree = faces_.degree(p), first = faces_.starts[p];
-      bytes.push_back(static_cast<char>(degree));
+      put(bytes, length_type_, degree);
       for (const int v : faces_.polygon(p)) put(bytes, ScalarType::Int32, v);
       for (const CornerList& list : lists_) {
-        bytes.push_back(static_cast<char>(degree * list.width));
+        put(bytes, length_type_, degree * list.width);
         for (int i = first; i < first + degree; ++i) {
           const double* const row = list.values + std::int64_t{corners_[i]} * list.width;
           for (int k = 0; k < list.width; ++k) put(bytes, list.type, row[k]);
@@ -91,7 +93,20 @@ class FaceRecords {
   }
 
  private:
+  /// A byte, as usual, but where a list is longer than it can say.
+  void find_length_type() {
+    int longest = 0, width = 1;
+    for (std::int64_t p = 0; p < faces_.count(); ++p) longest = std::max(longest, faces_.degree(p));
+    for (const CornerList& list : lists_) width = std::max(width, list.width);
+    if (std::int64_t{longest} * width > 255) length_type_ = ScalarType::Int32;
+  }
+
+  std::string list_words() const {
+    return "property list " + std::string(ply_name(length_type_)) + " ";
+  }
+
   const Polygons& faces_;
+  ScalarType length_type_ = ScalarType::Uint8;
   std::vector<int> corners_;  // of the triangles, one a corner of the polygons
   std::vector<CornerList> lists_;
   std::vector<const Property*> properties_;

@@ -254,6 +254,11 @@ std::vector<VtkArray> vtk_arrays(const std::vector<Property>& properties) {
     }
     if (!found) width = 1;
     VtkArray array = gathered(properties, at, width);
+    if (found && found->role == VtkRole::Colours && !may_be_colours(array)) {
+      found = nullptr;  // nor would reading take it for that: each number keeps its own name
+      width = 1;
+      array = gathered(properties, at, width);
+    }
     array.role = found ? found->role : VtkRole::Plain;
     array.name = found ? found->names[found->role == VtkRole::Colours && width == 4]
                        : one_line(properties[at].name);

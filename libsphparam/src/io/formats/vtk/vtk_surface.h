@@ -91,7 +91,8 @@ bool take_strings(VtkSurface& surface, const std::string& name, std::vector<std:
 MeshFile as_mesh_file(VtkSurface surface, const std::string& name, const ReadOptions& options);
 
 /// The other way: properties in their order, nx ny nz as "Normals", s t as "TCoords", red green
-/// blue [alpha] as "RGB" or "RGBA", where they stand side by side and are of one type.
+/// blue [alpha] as "RGB" or "RGBA", where they stand side by side and are of one type, colours
+/// bytes or fractions; all others one by one.
 std::vector<VtkArray> vtk_arrays(const std::vector<Property>& properties);
 
 /// Points as they are written: as Float32 where that is what they are.
