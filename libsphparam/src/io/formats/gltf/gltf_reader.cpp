@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "elementary.h"
+#include "io/attributes/appearance.h"
 #include "io/attributes/left_out_image.h"
 #include "io/attributes/material_comments.h"
 #include "io/files/non_finite_advice.h"
@@ -43,6 +44,9 @@ const std::string corner_columns[] = {"second s",  "second t",  "tangent x",
 
 /// One file may name the same bytes over and over: what is made of them is bounded by their number.
 constexpr std::uint64_t most_triangles_per_byte = 2;
+
+/// Up to so many triangles harm nobody: a forest is a tree and a list of places, of few bytes.
+constexpr std::uint64_t harmless_triangles = 1 << 20;
 
 /// A vertex property under construction: primitives without it leave gaps.
 struct Column {
@@ -132,10 +136,7 @@ class SceneReader {
     return instances;
   }
 
-  /// A forest is a tree and a list of places, of few bytes: up to a number that harms nobody it
-  /// may be more triangles than other files of its size.
   void make_room_for(std::size_t instances, int mesh) {
-    constexpr double harmless = 1 << 20;
     double triangles = 0, vertices = 0;
     for (const auto& primitive : document_.meshes[static_cast<std::size_t>(mesh)]) {
       const auto count = [&](int id) { return static_cast<double>(accessors_.accessor(id).count); };
@@ -145,12 +146,14 @@ class SceneReader {
       vertices += points;
     }
     const double more = std::max(triangles, vertices / 3) * static_cast<double>(instances);
-    if (more > harmless - static_cast<double>(of_instances_)) fail("more instances than are read");
+    if (more > static_cast<double>(harmless_triangles - of_instances_))
+      fail("more instances than are read");
     of_instances_ += static_cast<std::uint64_t>(std::ceil(more));
   }
 
+  /// Also where nodes name one mesh over and over.
   std::uint64_t most_triangles() const {
-    return most_triangles_per_byte * accessors_.buffer_bytes() + of_instances_;
+    return most_triangles_per_byte * accessors_.buffer_bytes() + harmless_triangles + of_instances_;
   }
 
   /// As the joints stand, or where a skin is broken as the node stands.
@@ -312,7 +315,7 @@ class SceneReader {
       positions_.insert(positions_.end(), x.begin(), x.end());
     }
     for (const auto& [attribute, accessor] : primitive.attributes)
-      if (accessor != position)
+      if (attribute != "POSITION")
         add_attribute(attribute, accessor, transforms, before, static_cast<std::size_t>(count));
     morph_targets_ = std::max(morph_targets_, std::ssize(primitive.targets));
   }
@@ -446,13 +449,18 @@ class SceneReader {
       append(corner_columns[2 + k], ScalarType::Float64, before, columns[k]);
   }
 
+  /// Whole numbers must be normalised; where a file forgets to say so, they are meant all the same.
   void add_colours(int accessor, std::size_t before) {
     require_components(accessor, {3, 4});
     const char* const names[] = {"red", "green", "blue"};
+    const double most = brightest(accessors_.type(accessor));
+    any_whole_colours_ = any_whole_colours_ || most != 1;
     for (std::size_t channel = 0; channel < 3; ++channel)
-      add_column(names[channel], ScalarType::Float32, accessor, channel, before, srgb);
+      add_column(names[channel], ScalarType::Float32, accessor, channel, before,
+                 [most](double value) { return srgb(value / most); });
     if (accessors_.accessor(accessor).components == 4)
-      add_column("alpha", ScalarType::Float32, accessor, 3, before);
+      add_column("alpha", ScalarType::Float32, accessor, 3, before,
+                 [most](double value) { return value / most; });
   }
 
   void add_triangles(const GltfDocument::Primitive& primitive, std::uint64_t vertices, int first,
@@ -598,6 +606,8 @@ class SceneReader {
       not_carried.push_back(
           attribute + (carried_.contains(attribute) ? " where no material there uses it" : ""));
     if (!not_carried.empty()) add_loss(file_.notes, "of the vertices " + enumerated(not_carried));
+    if (any_whole_colours_)
+      file_.notes.push_back("COLOR_0 is of whole numbers not said to be normalised: taken as if");
     if (accessors_.misaligned() > 0)
       file_.notes.push_back(counted(accessors_.misaligned(), "accessor") +
                             " not aligned as glTF wants it: read all the same");
@@ -637,6 +647,7 @@ class SceneReader {
   std::vector<double> weights_;                                       // of these
   std::vector<double> morphed_;  // numbers that they have moved
   long degenerate_ = 0;
+  bool any_whole_colours_ = false;
   long without_area_ = 0;           // primitives of points and lines
   std::string first_without_area_;  // the first of them, in words
   MeshFile file_;

@@ -22,12 +22,13 @@ bool looks_like_gltf(std::string_view bytes);
 /// `prepare_for_mapping` welds them by position and keeps both at the corners. Kept: NORMAL,
 /// the texture coordinates of the base colour's image, or of the first that a material has,
 /// transformed as it says (t upwards, as in OBJ: 1 − v; TEXCOORD_0 where no material says another),
-/// COLOR_0 (its linear light as sRGB in [0, 1], Float32), scalars named _…, the angles of
-/// _THETA_PHI as theta and phi, the material of each face and what it says (materials.h); textures
-/// are named in comments too, and never decoded here; one says that y is up. Told as not carried:
-/// extensions of materials but unlit and emissive strength, textures on other coordinates than a
-/// material's first, other attributes, skins and morph targets, of which the mesh has the shape
-/// that the file leaves it in, animations, cameras, lights, other scenes, points and lines.
+/// COLOR_0 (its linear light as sRGB in [0, 1], Float32; of whole numbers, normalised or not, the
+/// largest is 1), scalars named _…, the angles of _THETA_PHI as theta and phi, the material of each
+/// face and what it says (materials.h); textures are named in comments too, and never decoded here;
+/// one says that y is up. Told as not carried: extensions of materials but unlit and emissive
+/// strength, textures on other coordinates than a material's first, other attributes, skins and
+/// morph targets, of which the mesh has the shape that the file leaves it in, animations, cameras,
+/// lights, other scenes, points and lines.
 /// Triangles, strips and fans, with or without indices; triangles that name a vertex twice are
 /// dropped and counted in a note. Refused by name: a file of points and lines alone, glTF 1.0,
 /// required extensions other than KHR_mesh_quantization, EXT_mesh_gpu_instancing,
