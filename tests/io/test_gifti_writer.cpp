@@ -3,6 +3,8 @@
 
 #include "io/formats/gifti/gifti_writer.h"
 #include "reading.h"
+#include "sphparam/errors.h"
+#include "sphparam/io/safe_file.h"
 #include "sphparam/io/sphere_file.h"
 #include "sphparam/sphere/certificate.h"
 #include "sphparam/sphere/float_rounding.h"
@@ -36,6 +38,21 @@ TEST_CASE("gifti_writer: coordinates that are floats are written as floats") {
   const MeshFile again = read(serialise_gifti(file));
   CHECK(again.position_type == ScalarType::Float32);
   CHECK(again.mesh.positions == file.mesh.positions);
+}
+
+TEST_CASE("gifti_writer: coordinates beyond floats are refused where they are to be rounded") {
+  MeshFile file;
+  file.mesh = tetrahedron();
+  file.mesh.positions *= 1e39;
+  CHECK(read(serialise_gifti(file)).mesh.positions == file.mesh.positions);
+  try {
+    serialise_gifti(file, {.float32 = true});
+    FAIL("not refused");
+  } catch (const sphparam::WriteError& error) {
+    CHECK(contains(error.what(), "a coordinate of vertex 0 is beyond numbers of 32 bits"));
+  }
+  file.mesh.positions *= 1e-78;
+  CHECK_THROWS_AS(serialise_gifti(file, {.float32 = true}), sphparam::UnmeasurableMesh);
 }
 
 TEST_CASE("gifti_writer: a map rounded to floats keeps its certificate in the file") {

@@ -11,19 +11,23 @@
 
 namespace sphparam {
 
-/// Coordinates rounded to the nearest float32 numbers. `format`: for the message.
+/// Whether coordinates can be rounded to float32 numbers. `format`: for the message.
 /// Throws: WriteError where one is beyond their range; UnmeasurableMesh where all are too near.
-inline void append_points32(std::string& bytes, const Points& points, std::endian order,
-                            const char* format) {
+inline void require_float32(const Points& points, const char* format) {
   require_float32_least(points, format);
-  for (Eigen::Index i = 0; i < points.size(); ++i) {
-    const auto value = static_cast<float>(points.data()[i]);
-    if (!std::isfinite(value))
+  for (Eigen::Index i = 0; i < points.size(); ++i)
+    if (!std::isfinite(static_cast<float>(points.data()[i])))
       throw WriteError(format, "a coordinate of vertex " + std::to_string(i / 3) +
                                    " is beyond numbers of 32 bits; .ply, .obj, .off, .vtk and "
                                    ".vtp hold it");
-    append_number(bytes, value, order);
-  }
+}
+
+/// Coordinates rounded to the nearest float32 numbers. Throws: as `require_float32`.
+inline void append_points32(std::string& bytes, const Points& points, std::endian order,
+                            const char* format) {
+  require_float32(points, format);
+  for (Eigen::Index i = 0; i < points.size(); ++i)
+    append_number(bytes, static_cast<float>(points.data()[i]), order);
 }
 
 inline void append_triangles32(std::string& bytes, const Triangles& triangles, std::endian order) {

@@ -5,12 +5,12 @@
 #include <optional>
 #include <vector>
 
+#include "io/formats/float32_points.h"
 #include "io/formats/freesurfer_comments.h"
 #include "io/formats/gifti/gifti_image.h"
 #include "io/formats/gifti/gifti_labels.h"
 #include "io/formats/lossless_type.h"
 #include "io/formats/volume_geometry.h"
-#include "mesh/float32_size.h"
 
 namespace sphparam {
 namespace {
@@ -68,7 +68,7 @@ GiftiImage build_image(const MeshFile& file, const GiftiOptions& options) {
   giiDataArray& points = *image->darray[0];
   const bool is_float32 =
       lossless_type(ScalarType::Float32, positions.data(), positions.size()) == ScalarType::Float32;
-  if (options.float32 && !is_float32) require_float32_least(positions, "GIFTI");
+  if (options.float32 && !is_float32) require_float32(positions, "GIFTI");
   if (options.float32 || is_float32)
     fill_gifti<float>(points, NIFTI_INTENT_POINTSET, NIFTI_TYPE_FLOAT32, numbers_of(positions), 3);
   else

@@ -20,7 +20,9 @@ struct GiftiOptions {
 /// No bit is lost: coordinates are FLOAT32, which neuroimaging tools expect, where every one of
 /// them is a float32 number, else FLOAT64. A map goes through `round_to_float` first, whose
 /// certificate then holds for the file. Properties have no place in it.
-/// Throws: WriteError when libgiftiio fails. Safe to call from several threads.
+/// Throws: WriteError when libgiftiio fails, or where coordinates that are to be rounded are beyond
+/// the range of float32; UnmeasurableMesh where all of these are too near. Safe to call from
+/// several threads.
 std::string serialise_gifti(const MeshFile& file, const GiftiOptions& options = {});
 
 }  // namespace sphparam
