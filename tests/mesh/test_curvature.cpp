@@ -102,6 +102,40 @@ TEST_CASE("curvature: coinciding vertices and flat faces give finite values") {
   CHECK(curvature_of(mesh, 0.3).gauss.allFinite());
 }
 
+TEST_CASE("curvature: an edge without length, or a face in one place, makes no Gauss curvature") {
+  for (const int corners : {2, 3}) {
+    TriangleMesh mesh = icosphere(2);
+    for (int k = 1; k < corners; ++k)
+      mesh.positions.row(mesh.triangles(5, k)) = mesh.position(mesh.triangles(5, 0));
+    const Curvature c = curvature_of(mesh);
+    CHECK(integral(c.gauss, c) == Approx(4 * pi).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("curvature: what bends beside faces without area is not lost, on one side or both") {
+  TriangleMesh mesh = octahedron();
+  const double whole = 0.5 * 12 * std::sqrt(2.0) * std::acos(1.0 / 3);  // ½ Σ length · angle
+  const auto total = [&] {
+    const Curvature c = curvature_of(mesh);
+    return integral(c.mean, c);
+  };
+  CHECK(total() == Approx(whole).epsilon(1e-12));
+  // A vertex on the edge a–b that the face beside it knows, and the other one does not.
+  const Topology topology(mesh);
+  for (const Halfedge h : {0, topology.twin(0)}) {
+    const Vertex a = topology.origin(h), b = topology.target(h), apex = topology.apex(h);
+    const auto middle = static_cast<Vertex>(mesh.vertex_count());
+    const Eigen::Index faces = mesh.face_count();
+    mesh.positions.conservativeResize(middle + 1, 3);
+    mesh.positions.row(middle) = 0.25 * mesh.position(a) + 0.75 * mesh.position(b);
+    mesh.triangles.conservativeResize(faces + 2, 3);
+    mesh.triangles.row(Topology::face(h)) << a, middle, apex;
+    mesh.triangles.row(faces) << middle, b, apex;
+    mesh.triangles.row(faces + 1) << a, b, middle;
+    CHECK(total() == Approx(whole).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("curvature: of a mesh 2^k times as large, 1/2^k times as large to the last bit") {
   const TriangleMesh mesh = random_sphere_mesh(200, 5);
   const Curvature one = curvature_of(mesh, 0.25);

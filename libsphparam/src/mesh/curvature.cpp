@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "elementary.h"
+#include "mesh/flat_face.h"
 #include "mesh/surface_average.h"
 #include "mesh/triangle_geometry.h"
 #include "mesh/unit_size.h"
@@ -17,7 +18,9 @@
 // One pass for the normals and areas of faces, one over the rings of vertices:
 //   M_v = ¼ Σ_{e∋v} β_e |e|     β the angle by which the surface bends at the edge, > 0 convex
 //   G_v = 2π − Σ angles at v
-// Their densities are averaged over a scale (mesh/surface_average).
+// Their densities are averaged over a scale (mesh/surface_average). A triangle without area has no
+// normal of its own: it is a piece of the face across its longest side, so that what bends there
+// bends at its other sides. Its angles are those of the limit, and sum to π.
 
 namespace sphparam {
 namespace {
@@ -29,26 +32,91 @@ constexpr double least_area = std::numeric_limits<double>::min();
 struct Faces {
   Points normals;  // unit; zero where there is none
   VectorX area;    // #F
+  /// #F: the side of a face without area across which it gets its normal; −1: it has one.
+  std::vector<Halfedge> borrowed;
 };
 
 bool is_filler(const FillerMarks& fillers, Face face) {
   return !fillers.empty() && fillers[static_cast<size_t>(face)] != 0;
 }
 
+/// The longest side of a triangle of this area, if that is none beside it; else −1.
+Halfedge side_without_area(const TriangleMesh& mesh, Face f, double area) {
+  Halfedge longest = -1;
+  double square = -1;
+  for (int k = 0; k < 3; ++k) {
+    const Vertex a = mesh.triangles(f, k), b = mesh.triangles(f, (k + 1) % 3);
+    const double of_side = (mesh.position(b) - mesh.position(a)).squaredNorm();
+    if (of_side > square) longest = 3 * f + k, square = of_side;
+  }
+  return area <= flat_area * square ? longest : -1;
+}
+
 Faces measure_faces(const TriangleMesh& mesh, const FillerMarks& fillers, int threads) {
-  Faces faces{Points(mesh.face_count(), 3), VectorX(mesh.face_count())};
+  const auto count = static_cast<size_t>(mesh.face_count());
+  Faces faces{Points(mesh.face_count(), 3), VectorX(mesh.face_count()),
+              std::vector<Halfedge>(count)};
   parallel_for(mesh.face_count(), grain, threads, [&](std::int64_t first, std::int64_t last) {
-    for (Eigen::Index f = first; f < last; ++f) {
+    for (Face f = static_cast<Face>(first); f < last; ++f) {
       const Vector3 a = mesh.position(mesh.triangles(f, 0));
       const Vector3 b = mesh.position(mesh.triangles(f, 1)) - a;
       const Vector3 c = mesh.position(mesh.triangles(f, 2)) - a;
       const Vector3 normal = b.cross(c);
-      faces.area[f] = is_filler(fillers, static_cast<Face>(f)) ? 0 : normal.stableNorm() / 2;
+      const double area = normal.stableNorm() / 2;
+      faces.area[f] = is_filler(fillers, f) ? 0 : area;
       faces.normals.row(f) = normal.stableNormalized();
+      faces.borrowed[static_cast<size_t>(f)] = side_without_area(mesh, f, area);
     }
   });
   return faces;
 }
+
+/// Gives faces without area the normal of what they are a piece of.
+class NormalBorrowing {
+ public:
+  NormalBorrowing(const Topology& topology, Faces& faces)
+      : topology_(topology), faces_(faces), asked_(faces.borrowed.size(), 0) {}
+
+  void run() {
+    for (Face f = 0; f < topology_.face_count(); ++f) {
+      if (!has_normal(f) && !asked_[static_cast<size_t>(f)]) borrow_for(f);
+    }
+  }
+
+ private:
+  bool has_normal(Face f) const { return faces_.borrowed[static_cast<size_t>(f)] < 0; }
+
+  /// From face to face across the longest sides, to one that has a normal. Where that leads back,
+  /// two lie back to back: beside them is one, or all of them stay without.
+  void borrow_for(Face f) {
+    std::vector<Face> way;
+    for (; !has_normal(f) && !asked_[static_cast<size_t>(f)]; f = lender_of(f)) {
+      asked_[static_cast<size_t>(f)] = 1;
+      way.push_back(f);
+    }
+    for (size_t i = way.size(); !has_normal(f) && i-- > 0;) f = beside(way[i]);
+    const Vector3 normal = has_normal(f) ? Vector3(faces_.normals.row(f)) : Vector3::Zero();
+    for (const Face borrower : way) {
+      faces_.normals.row(borrower) = normal;
+      if (has_normal(f)) faces_.borrowed[static_cast<size_t>(borrower)] = -1;
+    }
+  }
+
+  Face lender_of(Face f) const {
+    return Topology::face(topology_.twin(faces_.borrowed[static_cast<size_t>(f)]));
+  }
+  /// A face beside this one that has a normal, or this one.
+  Face beside(Face f) const {
+    for (Halfedge h = 3 * f; h < 3 * f + 3; ++h) {
+      if (has_normal(Topology::face(topology_.twin(h)))) return Topology::face(topology_.twin(h));
+    }
+    return f;
+  }
+
+  const Topology& topology_;
+  Faces& faces_;
+  std::vector<char> asked_;
+};
 
 Vector3 edge_vector(const TriangleMesh& mesh, const Topology& topology, Halfedge h) {
   return mesh.position(topology.target(h)) - mesh.position(topology.origin(h));
@@ -64,11 +132,15 @@ double bend(const TriangleMesh& mesh, const Topology& topology, const Faces& fac
   return length * elementary::atan2(n.cross(m).dot(edge) / length, n.dot(m));
 }
 
-/// Between the half-edge and the one before it in its face.
+/// Between the half-edge and the one before it in its face. Right at both ends of a side without
+/// length; a third of two right ones where all three sides are.
 double angle_at_origin(const TriangleMesh& mesh, const Topology& topology, Halfedge h) {
-  const Vector3 a = edge_vector(mesh, topology, h).stableNormalized();
-  const Vector3 b = -edge_vector(mesh, topology, Topology::previous(h)).stableNormalized();
-  return angle_between(a, b);
+  const Vector3 a = edge_vector(mesh, topology, h);
+  const Vector3 b = -edge_vector(mesh, topology, Topology::previous(h));
+  const int without_length = a.isZero(0) + b.isZero(0);
+  if (without_length == 2) return std::numbers::pi / 3;
+  if (without_length == 1) return std::numbers::pi / 2;
+  return angle_between(a.stableNormalized(), b.stableNormalized());
 }
 
 struct Measures {
@@ -174,7 +246,8 @@ void enlarge(Curvature& curvature, int exponent) {
 Curvature measure_harmless(const TriangleMesh& mesh, const Topology& topology, double scale,
                            const FillerMarks& fillers, int threads) {
   // 1. The measures at the vertices, and their densities as they are.
-  const Faces faces = measure_faces(mesh, fillers, threads);
+  Faces faces = measure_faces(mesh, fillers, threads);
+  NormalBorrowing(topology, faces).run();
   Measures measures = measure_vertices(mesh, topology, faces, threads);
   const double mean_area = measures.area.mean();
   VectorX& area = measures.area;

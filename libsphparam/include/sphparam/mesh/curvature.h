@@ -17,11 +17,12 @@ struct Curvature {
 /// Mean and Gauss curvature of a closed mesh as densities of its curvature measures.
 ///
 /// The measures live on edges (½ · dihedral angle · length) and on vertices (2π less the angles),
-/// where slivers do no harm: both are bounded whatever the shape of the triangles. Half of an
-/// edge's goes to each end; divided by the area they are curvatures at `scale` 0. A larger scale
-/// averages both over neighbours, with standard deviation `scale` in each direction of the surface,
-/// by one implicit step of heat flow with positive weights: the result stays between the extremes,
-/// and what is small beside `scale` averages away.
+/// where slivers do no harm: both are bounded whatever the shape of the triangles. A triangle
+/// without area is a piece of the one across its longest side. Half of an edge's goes to each end;
+/// divided by the area they are curvatures at `scale` 0. A larger scale averages both over
+/// neighbours, with standard deviation `scale` in each direction of the surface, by one implicit
+/// step of heat flow with positive weights: the result stays between the extremes, and what is
+/// small beside `scale` averages away.
 /// Fillers are no surface: their area counts for nothing. Vertices of rims have the curvature of
 /// their neighbours inside the surface; those that only fillers use have none: 0 at scale 0.
 /// Requires: finite positions; scale is a length; a mark a face, or none at all. Where a figure is
