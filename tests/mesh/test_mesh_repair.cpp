@@ -255,6 +255,27 @@ TEST_CASE("mesh_repair: bodies that touch along an edge, inside out or not, come
   }
 }
 
+TEST_CASE(
+    "mesh_repair: a face that names a vertex twice, where these stay, is none of the surface") {
+  RepairOptions options = RepairOptions::none();
+  options.non_manifold = true;
+  TriangleMesh mesh = octahedron();
+  append_face(mesh, 0, 0, 2);
+  append_face(mesh, 2, 4, 2);
+  const RepairedMesh repaired = repair_mesh(mesh, options);
+  CHECK(repaired.actions.empty());
+  CHECK(same(repaired.mesh, mesh));
+  // Bodies that share an edge come apart all the same.
+  mesh.positions.resize(6, 3);
+  mesh.positions << 0, 0, 0, 0, 0, 1, 1, 0, 0, 1, 1, 0, -1, 0, 0, -1, -1, 0;
+  mesh.triangles.resize(9, 3);
+  mesh.triangles << 0, 1, 0, 0, 1, 2, 1, 0, 3, 0, 2, 3, 1, 3, 2, 0, 1, 4, 1, 0, 5, 0, 4, 5, 1, 5, 4;
+  const RepairedMesh apart = repair_mesh(mesh, options);
+  CHECK(apart.mesh.vertex_count() == 8);
+  CHECK(apart.mesh.triangles.row(0) == mesh.triangles.row(0));
+  CHECK(Topology::try_build(apart.mesh.triangles.bottomRows(8), 8).has_value());
+}
+
 TEST_CASE("mesh_repair: two bodies with a common wall come apart, each with its own") {
   // Octahedra above and below the wall 0 1 2, each closed by it.
   TriangleMesh mesh;

@@ -12,15 +12,21 @@
 // come apart. Across the air instead where that joins fewer fans, hence makes fewer handles, or
 // just as many where one sheet is too many: an inner wall is left over. Each fan but a vertex's
 // first gets a copy of it. Where two pairs still have the same two vertices, all but one get their
-// other diagonal, or a vertex in the middle.
+// other diagonal, or a vertex in the middle. A face that names a vertex twice, where these are not
+// to be removed, is none of the surface: it stays as it is.
 
 namespace sphparam {
 namespace {
 
 constexpr Halfedge none = -1;
 
+bool names_three(const RepairState& state, Face f) {
+  const auto& [a, b, c] = state.faces[f];
+  return a != b && b != c && c != a;
+}
+
 std::vector<FaceSide> all_sides(const RepairState& state) {
-  return sorted_sides(state.triangles(), [](Face) { return true; });
+  return sorted_sides(state.triangles(), [&](Face f) { return names_three(state, f); });
 }
 
 double signed_volume(const RepairState& state) {
@@ -177,7 +183,8 @@ class SideJoiner {
     std::vector<char> taken(state_.positions.size(), 0);
     std::vector<Vertex> name(twin_.size());
     for (int i = 0; i < static_cast<int>(twin_.size()); ++i) {
-      const Vertex v = state_.corner(i);
+      const Vertex v = name[i] = state_.corner(i);
+      if (!names_three(state_, i / 3)) continue;
       const int fan = fans_.find(i);
       if (fan == i && taken[v]) {
         state_.log(RepairKind::VertexSplit, {state_.vertex_origin[v]});
