@@ -72,6 +72,18 @@ TEST_CASE("cracks: a vertex beside the edge is taken for one on it only when tha
   CHECK(count(repair_mesh(mesh, {.weld_length = 0.005}), RepairKind::EdgeSplitAtVertex) == 0);
 }
 
+TEST_CASE("cracks: an unused vertex far off makes no length of the box longer") {
+  TriangleMesh mesh = t_junction(0.01);
+  mesh.positions.conservativeResize(10, 3);
+  for (const double far : {100.0, 1e20}) {
+    mesh.positions.row(9) << far, 0, 0;
+    CHECK(count(repair_mesh(mesh, {.weld_share = 0.005 / 6.9}), RepairKind::EdgeSplitAtVertex) ==
+          0);
+    CHECK(count(repair_mesh(mesh, {.weld_share = 0.02 / 6.9}), RepairKind::EdgeSplitAtVertex) == 1);
+    CHECK(count(repair_mesh(mesh, {.weld_length = 0.02}), RepairKind::EdgeSplitAtVertex) == 1);
+  }
+}
+
 TEST_CASE("cracks: seams are welded within the tolerance, the lower numbers and places stay") {
   for (const double gap : {0.0, 1e-3}) {
     const TriangleMesh mesh = cracked_ball(gap);

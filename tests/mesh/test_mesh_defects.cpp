@@ -177,6 +177,30 @@ TEST_CASE("mesh_defects: huge and tiny coordinates are measured without overflow
   }
 }
 
+TEST_CASE("mesh_defects: corners at both ends of the doubles are measured, as far as these reach") {
+  TriangleMesh mesh = octahedron();
+  mesh.positions *= 1.7e308;  // twice that is no double
+  const MeshInspection inspection = inspect_mesh(mesh);
+  CHECK(inspection.is_sphere());
+  CHECK(inspection.defects.empty());
+  CHECK(inspection.area == std::numeric_limits<double>::infinity());
+  CHECK(inspection.volume == std::numeric_limits<double>::infinity());
+}
+
+TEST_CASE("mesh_defects: an unused vertex, however far off, changes no size") {
+  TriangleMesh mesh = icosphere(1);
+  const MeshInspection alone = inspect_mesh(mesh);
+  mesh.positions.conservativeResize(43, 3);
+  for (const double far : {7.0, 1e17, 1e300}) {
+    mesh.positions.row(42) << far, 0, 0;
+    const MeshInspection inspection = inspect_mesh(mesh);
+    CHECK(inspection.area == alone.area);
+    CHECK(inspection.volume == alone.volume);
+    CHECK(inspection.upper == alone.upper);
+    CHECK(inspection.defects.size() == 1);
+  }
+}
+
 TEST_CASE("mesh_defects: an empty mesh is refused") {
   CHECK_FALSE(inspect_mesh(TriangleMesh{}).is_sphere());
   CHECK_THROWS_AS(require_sphere(TriangleMesh{}), MeshError);

@@ -25,6 +25,15 @@ TEST_CASE("weld_shares: above the errors of a mesh, and well below its edges, at
   }
 }
 
+TEST_CASE("weld_shares: an unused vertex far off changes none") {
+  TriangleMesh mesh = shaken_apart(icosphere(3), 1e-5);
+  const Shares usual = weld_shares(mesh);
+  const Eigen::Index vertices = mesh.vertex_count();
+  mesh.positions.conservativeResize(vertices + 1, 3);
+  mesh.positions.row(vertices) << 1000, 0, 0;
+  CHECK(weld_shares(mesh) == usual);
+}
+
 TEST_CASE("weld_shares: none where boundaries are the shape's, or nothing has a place") {
   TriangleMesh open = icosphere(3);
   open.triangles.conservativeResize(open.face_count() - 20, 3);

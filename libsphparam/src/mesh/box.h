@@ -25,6 +25,20 @@ inline Box box_of(const Points& positions) {
   return box;
 }
 
+/// About the vertices that faces name: others are nowhere on the surface, and may be anywhere.
+/// Where no face names one that is there, about all.
+inline Box surface_box(const TriangleMesh& mesh) {
+  Box box;
+  bool any = false;
+  for (Eigen::Index i = 0; i < mesh.triangles.size(); ++i) {
+    const Vertex v = mesh.triangles.data()[i];
+    if (v < 0 || v >= mesh.vertex_count()) continue;
+    box.add(mesh.position(v));
+    any = true;
+  }
+  return any ? box : box_of(mesh.positions);
+}
+
 inline double longest_side(const TriangleMesh& mesh) {
   return box_of(mesh.positions).longest_side();
 }

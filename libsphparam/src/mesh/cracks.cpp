@@ -6,6 +6,7 @@
 #include <optional>
 #include <unordered_map>
 
+#include "mesh/box.h"
 #include "mesh/face_sides.h"
 #include "mesh/repair_state.h"
 
@@ -93,15 +94,13 @@ double mean_length(const RepairState& state, const std::vector<FaceSide>& sides)
   return sum / static_cast<double>(sides.size());
 }
 
-/// Of the unit box about the mesh.
+/// Of the box about the surface, as `shape` has it.
 double diagonal(const RepairState& state) {
-  if (state.shape.empty()) return 0;
-  Vector3 lower = state.shape.front(), upper = lower;
-  for (const Vector3& p : state.shape) {
-    lower = lower.cwiseMin(p);
-    upper = upper.cwiseMax(p);
+  Box box;
+  for (const auto& face : state.faces) {
+    for (const Vertex v : face) box.add(state.shape[v]);
   }
-  return (upper - lower).norm();
+  return state.faces.empty() ? 0 : (box.upper - box.lower).norm();
 }
 
 class CrackCloser {

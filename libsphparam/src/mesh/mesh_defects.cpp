@@ -9,6 +9,7 @@
 #include <optional>
 #include <sstream>
 
+#include "mesh/box.h"
 #include "mesh/defect_places.h"
 #include "mesh/face_sides.h"
 #include "mesh/flat_face.h"
@@ -137,14 +138,15 @@ class Inspector {
   }
 
   void measure_box() {
-    result_.lower = mesh_.positions.colwise().minCoeff();
-    result_.upper = mesh_.positions.colwise().maxCoeff();
+    const Box box = surface_box(mesh_);
+    result_.lower = box.lower;
+    result_.upper = box.upper;
     centre_ = 0.5 * result_.lower + 0.5 * result_.upper;
-    const double extent = (result_.upper / 2 - result_.lower / 2).maxCoeff() * 2;
+    const double extent = (result_.upper / 2 - result_.lower / 2).maxCoeff();
     if (extent > 0) scale_ = extent;
   }
 
-  /// In the unit box, so that 1e±300 neither overflows nor vanishes.
+  /// From −1 to 1, so that 1e±300 neither overflows nor vanishes.
   Vector3 scaled_corner(Face f, int k) const {
     return (mesh_.position(corner(f, k)) - centre_) / scale_;
   }
@@ -412,7 +414,7 @@ class Inspector {
   std::vector<FaceSide> sides_;  // sorted by edge
   bool finite_ = true;
   Vector3 centre_ = Vector3::Zero();  // of the bounding box
-  double scale_ = 1;                  // its longest side, where it has one
+  double scale_ = 1;                  // half its longest side, where it has one
   MeshInspection result_;
 };
 

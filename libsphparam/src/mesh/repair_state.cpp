@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/box.h"
+
 // Vertices and faces are renumbered in place, everything that belongs to them alike. Decisions look
 // at coordinates in the unit box, so that squares neither overflow nor vanish.
 
@@ -11,20 +13,14 @@ namespace {
 
 constexpr size_t listed = 10;  // places kept of an action
 
-std::vector<Vector3> scaled(const std::vector<Vector3>& positions, double& scale) {
-  if (positions.empty()) return {};
-  Vector3 lower = positions[0], upper = positions[0];
-  for (const Vector3& p : positions) {
-    lower = lower.cwiseMin(p);
-    upper = upper.cwiseMax(p);
+/// Whether faces name it, per vertex.
+std::vector<char> used_vertices(const RepairState& state) {
+  std::vector<char> used(state.positions.size(), 0);
+  for (const auto& face : state.faces) {
+    for (const Vertex v : face)
+      if (v >= 0 && v < state.vertex_count()) used[v] = 1;
   }
-  const Vector3 centre = lower / 2 + upper / 2;
-  const double extent = (upper / 2 - lower / 2).maxCoeff();
-  scale = extent > 0 && std::isfinite(extent) ? extent : 1;
-  std::vector<Vector3> shape;
-  shape.reserve(positions.size());
-  for (const Vector3& p : positions) shape.push_back((p - centre) / scale);
-  return shape;
+  return used;
 }
 
 template <class Value>
@@ -51,7 +47,6 @@ RepairState::RepairState(const TriangleMesh& mesh) {
     positions.emplace_back(mesh.positions.row(v));
     vertex_origin.push_back(static_cast<Vertex>(v));
   }
-  measure();
   mean_of.resize(positions.size());
   for (int f = 0; f < static_cast<int>(mesh.face_count()); ++f) {
     faces.push_back({mesh.triangles(f, 0), mesh.triangles(f, 1), mesh.triangles(f, 2)});
@@ -59,6 +54,7 @@ RepairState::RepairState(const TriangleMesh& mesh) {
     corner_origin.push_back({3 * f, 3 * f + 1, 3 * f + 2});
   }
   fillers.assign(faces.size(), 0);
+  measure();
 }
 
 void RepairState::log(RepairKind kind, std::initializer_list<int> input_ids) {
@@ -152,15 +148,17 @@ void RepairState::keep_vertices(const std::vector<char>& kept) {
   }
 }
 
-void RepairState::drop_unused_vertices() {
-  std::vector<char> used(positions.size(), 0);
-  for (const auto& face : faces) {
-    for (const Vertex v : face) used[v] = 1;
-  }
-  keep_vertices(used);
-}
+void RepairState::drop_unused_vertices() { keep_vertices(used_vertices(*this)); }
 
-void RepairState::measure() { shape = scaled(positions, scale); }
+void RepairState::measure() {
+  const Box box = surface_box(mesh());
+  const Vector3 centre = box.lower / 2 + box.upper / 2;
+  const double extent = (box.upper / 2 - box.lower / 2).maxCoeff();
+  scale = extent > 0 && std::isfinite(extent) ? extent : 1;
+  shape.clear();
+  shape.reserve(positions.size());
+  for (const Vector3& p : positions) shape.push_back((p - centre) / scale);
+}
 
 bool RepairState::is_finite() const {
   return std::all_of(positions.begin(), positions.end(),

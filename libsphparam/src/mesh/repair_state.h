@@ -13,7 +13,8 @@ struct RepairState {
   explicit RepairState(const TriangleMesh& mesh);
 
   std::vector<Vector3> positions;
-  std::vector<Vector3> shape;  // positions, centred and scaled to the unit box: for all decisions
+  /// Positions, the surface centred and scaled to a box from −1 to 1: for all decisions.
+  std::vector<Vector3> shape;
   std::vector<std::array<Vertex, 3>> faces;
   std::vector<Vertex> vertex_origin;
   std::vector<Face> face_origin;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "mesh/box.h"
 #include "mesh/face_sides.h"
 #include "mesh/index_range.h"
 
@@ -29,8 +30,8 @@ struct Boundary {
 };
 
 Boundary boundary_of(const TriangleMesh& mesh) {
-  const Vector3 lower = mesh.positions.colwise().minCoeff(),
-                upper = mesh.positions.colwise().maxCoeff(), middle = lower / 2 + upper / 2;
+  const auto [lower, upper] = surface_box(mesh);
+  const Vector3 middle = lower / 2 + upper / 2;
   const double extent = (upper / 2 - lower / 2).maxCoeff();
   if (!(extent > 0)) return {};
   const double diagonal = 2 * ((upper - middle) / extent).norm();  // in extents
@@ -98,10 +99,9 @@ bool nearly_all_have_a_near_one(const std::vector<Vector3>& places, double share
 /// Few steps of float32 at the largest coordinate: 0 where that is no share tried.
 double rounding_share(const TriangleMesh& mesh) {
   constexpr double few_steps = 0x1p-21;
-  const double largest = mesh.positions.cwiseAbs().maxCoeff();
-  const Vector3 lower = mesh.positions.colwise().minCoeff() / largest,
-                upper = mesh.positions.colwise().maxCoeff() / largest;
-  const double rounding = few_steps / (upper - lower).norm();
+  const auto [lower, upper] = surface_box(mesh);
+  const double largest = std::max(lower.cwiseAbs().maxCoeff(), upper.cwiseAbs().maxCoeff());
+  const double rounding = few_steps / (upper / largest - lower / largest).norm();
   const auto found = std::find_if(shares_tried.rbegin(), shares_tried.rend(),
                                   [&](double share) { return share >= rounding; });
   return found == shares_tried.rend() ? 0 : *found;
