@@ -2,10 +2,12 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "sphparam/errors.h"
 #include "sphparam/io/mesh_writer.h"
@@ -97,6 +99,23 @@ std::vector<std::string> certified_ways(const SurveyedMesh& mesh) {
 }
 
 using Words = std::vector<std::string>;
+
+/// A glTF of a tetrahedron whose buffer is a file of its own.
+void write_tetrahedron(const fs::path& path, const std::vector<std::uint16_t>& indices) {
+  const float places[] = {1, 1, 1, 1, -1, -1, -1, 1, -1, -1, -1, 1};
+  std::ofstream buffer(path.parent_path() / "beside.bin", std::ios::binary);
+  buffer.write(reinterpret_cast<const char*>(places), sizeof places);
+  const auto bytes = static_cast<std::streamsize>(2 * indices.size());
+  buffer.write(reinterpret_cast<const char*>(indices.data()), bytes);
+  std::ofstream(path) << R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],)"
+                         R"("nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":)"
+                         R"({"POSITION":0},"indices":1}]}],"buffers":[{"uri":"beside.bin",)"
+                         R"("byteLength":72}],"bufferViews":[{"buffer":0,"byteLength":48},)"
+                         R"({"buffer":0,"byteOffset":48,"byteLength":24}],"accessors":[)"
+                         R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3",)"
+                         R"("min":[-1,-1,-1],"max":[1,1,1]},)"
+                         R"({"bufferView":1,"componentType":5123,"count":12,"type":"SCALAR"}]})";
+}
 
 }  // namespace
 
@@ -311,6 +330,19 @@ TEST_CASE("survey: stopped, it goes on from its records, what has changed is tri
   CHECK(named(again, "deeper/open.obj").end == SurveyEnd::MapsMended);
   meshes.write("ball.ply", icosphere(1));
   CHECK(named(survey_folder(folder, kept), "ball.ply").end == SurveyEnd::Maps);
+}
+
+TEST_CASE("survey: what a file names beside it is looked at, too, before a record is believed") {
+  const Meshes meshes;
+  const fs::path scans = meshes.folder / "scans", records = meshes.folder / "records";
+  for (const fs::path& folder : {scans, records}) fs::create_directory(folder);
+  const SurveyOptions kept{.picture_size = 0, .records = records.string()};
+  const auto end = [&] { return survey_folder(scans.string(), kept).meshes.at(0).end; };
+  write_tetrahedron(scans / "a.gltf", {0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2});
+  CHECK(end() == SurveyEnd::Maps);
+  write_tetrahedron(scans / "a.gltf",
+                    {0, 1, 2, 0, 3, 1, 0, 2, 3, 0, 2, 3});  // a face twice, a hole
+  CHECK(end() == SurveyEnd::MapsMended);
 }
 
 TEST_CASE("survey: a folder without meshes, or none at all, is an error, it can be stopped") {

@@ -55,12 +55,15 @@ TriangleMesh drawable(const TriangleMesh& mesh) {
 using Edge = std::pair<Vertex, Vertex>;
 
 /// Of defects: vertices, which are edges without length, and edges. Those that name no vertex of
-/// the mesh are left out.
+/// the mesh, or one that has no place, are left out.
 std::set<Edge> places_of(const MeshSource& source) {
   const TriangleMesh& mesh = source.file.mesh;
   std::set<Edge> places;
+  const auto has_place = [&](int v) {
+    return v >= 0 && v < mesh.vertex_count() && mesh.positions.row(v).allFinite();
+  };
   const auto add = [&](int a, int b) {
-    if (std::min(a, b) >= 0 && std::max(a, b) < mesh.vertex_count()) places.insert({a, b});
+    if (has_place(a) && has_place(b)) places.insert({a, b});
   };
   // Those of the source have the numbers of the file.
   for (const MeshDefect& defect : inspect_mesh(mesh).defects) {
@@ -73,11 +76,12 @@ std::set<Edge> places_of(const MeshSource& source) {
       }
     }
   }
-  const auto names_vertices = [&](Face f) {
+  // About what has no place, others end: their rim is where it was.
+  const auto is_drawn = [&](Face f) {
     const auto corners = mesh.triangles.row(f);
-    return corners.minCoeff() >= 0 && corners.maxCoeff() < mesh.vertex_count();
+    return has_place(corners[0]) && has_place(corners[1]) && has_place(corners[2]);
   };
-  const std::vector<FaceSide> sides = sorted_sides(mesh.triangles, names_vertices);
+  const std::vector<FaceSide> sides = sorted_sides(mesh.triangles, is_drawn);
   for_each_edge(sides, [&](std::size_t i, std::size_t j) {
     if (j - i == 2 && sides[i].forward != sides[i + 1].forward) return;
     add(sides[i].low, sides[i].high);

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "batch/content_hash.h"
+#include "batch/input_hash.h"
 #include "batch/record.h"
 #include "option_domain.h"
 #include "sphparam/errors.h"
@@ -51,7 +52,7 @@ class Records {
     if (records_.empty()) return "";
     try {
       const std::string about = program_hash() + ' ' + asked_ + name + ' ' +
-                                hash_of_file((fs::path(folder_) / name).string());
+                                hash_of_input((fs::path(folder_) / name).string()).hash;
       return (fs::path(records_) / (content_hash(about) + ".json")).string();
     } catch (const ReadError&) {
       return "";

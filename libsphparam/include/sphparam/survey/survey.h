@@ -83,8 +83,9 @@ struct Survey {
 /// with its reason, and the others go on.
 ///
 /// With `records`, a survey that was stopped or killed goes on where it was: a record is that of a
-/// file's bytes, of its name, of the program's, and of what was asked for. Files that are stopped
-/// or cannot be read are tried again.
+/// file's bytes and of those beside it that it names, as a glTF its buffers, of its name, of the
+/// program's bytes, and of what was asked for. Files that are stopped or cannot be read are tried
+/// again.
 /// Throws: ReadError for a folder that cannot be read, or without mesh files; WriteError for
 /// records that cannot be written; Cancelled; std::invalid_argument for `picture_size` and
 /// `longest` out of their domains. Ensures: the same for any number of threads, as long as no file
