@@ -1,14 +1,17 @@
 #include "sphparam/parameterize.h"
 
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "curvilinear/curvilinear_map.h"
 #include "curvilinear/paper_map.h"
+#include "embedding/frame/landmarks.h"
 #include "embedding/newton/freed_memory.h"
 #include "embedding/sweeps/relaxation.h"
 #include "mesh/rings.h"
+#include "number_text.h"
 #include "pipeline/alignment.h"
 #include "pipeline/balanced_embedding.h"
 #include "pipeline/frame.h"
@@ -78,6 +81,18 @@ void map_paper(MapInProgress& work) {
   work.accept("smoothing", std::move(paper_map.map));
 }
 
+/// Its smoothing takes them with it.
+void warn_of_poles_of_paper(MapInProgress& work) {
+  if (!work.options.poles || !work.result.poles) return;
+  const auto [north, south] = *work.result.poles;
+  const std::vector<double> residuals =
+      pin_residuals(work.result.map, {{north, Vector3::UnitZ()}, {south, -Vector3::UnitZ()}});
+  if (all_exact(residuals)) return;
+  work.warn("the paper's smoothing has moved the poles: they are " + short_number(residuals[0]) +
+            " and " + short_number(residuals[1]) +
+            " radians from ±z; without sweeps of it they stay there");
+}
+
 void map_curvilinear(MapInProgress& work) {
   const std::optional<Poles> poles = find_poles(work);
   if (!poles) return work.warn("no usable pair of poles");
@@ -134,10 +149,22 @@ Parameterization run(const TriangleMesh& mesh, const Topology& topology,
   } else if (work.certified()) {
     options.align_to ? align(work) : place_frame(work);
   }
+  if (options.method == Method::Paper) warn_of_poles_of_paper(work);
   if (work.certified()) warn_of_balance(work);
   if (work.certified()) warn_of_gap(work);
   if (work.certified()) tell_filler_share(work);
   return std::move(work.result);
+}
+
+/// Where lengths count, as for steps and sweeps, those of the rays are 1. Others than by rounding,
+/// to floats too, are taken off; a ray that is 0 stays.
+SphereMap with_unit_rays(SphereMap map) {
+  constexpr double rounding = 1e-6;
+  for (Vertex v = 0; v < map.points.rows(); ++v) {
+    const double length = map.points.row(v).stableNorm();
+    if (length > 0 && std::abs(length - 1) > rounding) map.points.row(v) /= length;
+  }
+  return map;
 }
 
 Parameterization run_from(const SphereMap& map, const TriangleMesh& mesh, const Topology& topology,
@@ -154,12 +181,20 @@ Parameterization run_from(const SphereMap& map, const TriangleMesh& mesh, const 
   return std::move(work.result);
 }
 
+/// As `require_sphere` makes it, by no more threads than are wanted.
+Topology topology_of(const TriangleMesh& mesh, int threads) {
+  if (mesh.face_count() < 4 || !mesh.positions.allFinite()) return require_sphere(mesh);  // refused
+  Topology topology(mesh, threads);
+  require_sphere(mesh, topology);
+  return topology;
+}
+
 }  // namespace
 
 Parameterization parameterize(const TriangleMesh& mesh, const ParameterizeOptions& options) {
   require_domain(mesh, options);
   report(options.progress, "topology", 0);
-  Parameterization result = run(mesh, require_sphere(mesh), options);
+  Parameterization result = run(mesh, topology_of(mesh, options.threads), options);
   give_back_freed_memory();  // before the caller writes the map
   return result;
 }
@@ -179,7 +214,9 @@ Parameterization repair_map(const TriangleMesh& mesh, const SphereMap& map,
     throw std::invalid_argument("repair_map: one finite ray a vertex is needed");
   }
   require_domain(mesh, options);
-  return run_from(map, mesh, require_sphere(mesh), options);
+  ParameterizeOptions given = options;
+  given.automatic_poles = false;
+  return run_from(with_unit_rays(map), mesh, topology_of(mesh, options.threads), given);
 }
 
 }  // namespace sphparam

@@ -105,6 +105,35 @@ TEST_CASE("parameterize: given poles lie at plus and minus z") {
   if (method == Method::Progressive) CHECK(result.poles->north == 17);
 }
 
+TEST_CASE("parameterize: given poles are held with given pins, whichever method made the map") {
+  const TriangleMesh mesh = icosphere(3);
+  const Method method = GENERATE(Method::Progressive, Method::Curvilinear);
+  const Poles poles{17, 400};
+  const Parameterization result = parameterize(
+      mesh, {.method = method, .poles = poles, .pins = {{40, {0.5, 1.0}}, {300, {2.5, 2.0}}}});
+  CHECK(result.certificate.bijective());
+  CHECK(result.pin_residuals == std::vector<double>{0, 0});
+  CHECK(result.map.point(17) == Vector3(0, 0, 1));
+  CHECK(result.map.point(400) == Vector3(0, 0, -1));
+  REQUIRE(result.poles);
+  CHECK(result.poles->north == 17);
+  CHECK(result.poles->south == 400);
+}
+
+TEST_CASE("parameterize: the paper's smoothing moves given poles, which is told") {
+  const TriangleMesh mesh = icosphere(3);
+  ParameterizeOptions options{.method = Method::Paper, .poles = Poles{17, 400}};
+  const Parameterization moved = parameterize(mesh, options);
+  REQUIRE(moved.map.point(17) != Vector3(0, 0, 1));
+  REQUIRE(moved.warnings.size() == 1);
+  CHECK_THAT(moved.warnings[0], Catch::StartsWith("the paper's smoothing has moved the poles"));
+  options.paper.sweeps = 0;
+  const Parameterization still = parameterize(mesh, options);
+  CHECK(still.map.point(17) == Vector3(0, 0, 1));
+  CHECK(still.warnings.empty());
+  CHECK(parameterize(mesh, {.method = Method::Paper}).warnings.empty());
+}
+
 TEST_CASE(
     "parameterize: pins that fold a triangle are told so, and how far they are from holding") {
   const TriangleMesh mesh = random_sphere_mesh(300, 11);
@@ -394,6 +423,38 @@ TEST_CASE("repair_map: a folded map ends certified, a certified one stays as it 
   collapsed.points.rowwise() = Vector3(0, 0, 1).transpose();
   CHECK(repair_map(mesh, collapsed, options).made_by == "progressive embedding");
   CHECK_THROWS_AS(repair_map(mesh, {good.points.topRows(5)}, options), std::invalid_argument);
+}
+
+TEST_CASE("repair_map: of a frame it makes what is asked for, no poles with a meridian") {
+  const TriangleMesh mesh = icosphere(3);
+  const SphereMap good = normalised(mesh.positions);
+  const Parameterization turned = repair_map(mesh, good, {.meridian = 17});
+  CHECK(turned.meridian == 17);
+  CHECK(turned.map.point(17).y() == 0);
+  CHECK(turned.map.point(17).x() > 0);
+  CHECK_FALSE(turned.poles);
+  CHECK(turned.map.points.col(2) == good.points.col(2));  // about the axis that it has
+}
+
+TEST_CASE("repair_map: the length of the rays does not matter") {
+  const TriangleMesh mesh = icosphere(3);
+  SphereMap folded = normalised(mesh.positions);
+  for (const Face f : {40, 300, 700}) {
+    const Vertex v = mesh.triangles(f, 0), neighbour = mesh.triangles(f, 1);
+    folded.points.row(v) = 2 * folded.points.row(neighbour) - folded.points.row(v);
+  }
+  folded = normalised(folded.points);
+  const Parameterization mended = repair_map(mesh, normalised(folded.points), {});
+  REQUIRE(mended.made_by == "untangling");
+  for (const double length : {0x1p-10, 0x1p7, 0x1p900}) {
+    const Parameterization result = repair_map(mesh, {length * folded.points});
+    CHECK(result.made_by == "untangling");
+    CHECK(result.map.points == mended.map.points);
+  }
+  const ParameterizeOptions with_poles{.poles = Poles{17, 400}};
+  const SphereMap good{mesh.positions};
+  CHECK(repair_map(mesh, {128 * good.points}, with_poles).pole_cost ==
+        repair_map(mesh, normalised(good.points), with_poles).pole_cost);
 }
 
 TEST_CASE("parameterize: symmetry does not hold an octahedron above its least energy") {

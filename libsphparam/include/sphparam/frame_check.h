@@ -10,7 +10,7 @@ namespace sphparam {
 /// can be one-to-one and have its pins elsewhere: some places no map has.
 struct FrameCheck {
   bool pins = true;      // each at its point
-  bool poles = true;     // at +z and −z
+  bool poles = true;     // at +z and −z; of Method::Paper: those of its date line
   bool meridian = true;  // the vertex at θ = 0
   /// Radians of the poles asked for from +z and from −z; empty where none were, or there is no map.
   std::vector<double> pole_residuals = {};

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 #include <string>
 #include <utility>
 
@@ -12,6 +10,7 @@
 #include "embedding/energy/solid_angle_aim.h"
 #include "embedding/newton/optimise.h"
 #include "embedding/newton/pressed_fillers.h"
+#include "number_text.h"
 #include "sphparam/sphere/distortion.h"
 #include "sphparam/sphere/sphere_share.h"
 
@@ -124,13 +123,6 @@ double greatest_gap_of(Quality quality) {
   return quality == Quality::Draft ? greatest_gap_of_draft : greatest_energy_gap;
 }
 
-/// Three digits, as people read.
-std::string figure(double value) {
-  std::ostringstream text;
-  text << std::setprecision(3) << value;
-  return text.str();
-}
-
 }  // namespace
 
 bool press_fillers_again(MapInProgress& work, SphereMap& map, const std::vector<Pin>& pins) {
@@ -179,11 +171,11 @@ void warn_of_balance(MapInProgress& work) {
   if (wanted == Balance::EqualArea ? even : balance->moved) return;
   work.warn(name +
             (wanted == Balance::EqualArea
-                 ? ": the mean |log2 area ratio| is " + figure(balance->area_error) +
-                       ", not at most " + figure(BalanceOptions{}.area_error)
-                 : ": the mean |ln angle ratio| is " + figure(summary.mean_abs_ln_angle)) +
-            (balance->moved ? " (lambda " + figure(balance->lambda) + ")"
-                            : ", as in the map of lambda " + figure(balance->lambda) +
+                 ? ": the mean |log2 area ratio| is " + short_number(balance->area_error) +
+                       ", not at most " + short_number(BalanceOptions{}.area_error)
+                 : ": the mean |ln angle ratio| is " + short_number(summary.mean_abs_ln_angle)) +
+            (balance->moved ? " (lambda " + short_number(balance->lambda) + ")"
+                            : ", as in the map of lambda " + short_number(balance->lambda) +
                                   ": nothing could be gained"));
 }
 
@@ -191,7 +183,7 @@ void warn_of_gap(MapInProgress& work) {
   const std::optional<double>& gap = work.result.energy_gap;
   const bool best = work.options.quality == Quality::Best;
   if (!gap || *gap <= greatest_gap_of(work.options.quality)) return;
-  const std::string share = figure(100 * *gap) + " %";
+  const std::string share = short_number(100 * *gap) + " %";
   work.warn(*gap < 0.5 ? "the map is not at its least energy: about " + share + " of it is left" +
                              (best ? ": quality best stopped before it converged"
                                    : "; quality best goes on")
@@ -204,8 +196,8 @@ void tell_filler_share(MapInProgress& work) {
   const double share = sphere_share(work.mesh.triangles, work.result.map, work.options.fillers);
   work.result.filler_share = share;
   if (share <= work.options.filler_share) return;
-  work.warn("fillers take " + figure(100 * share) + " % of the sphere, more than the " +
-            figure(100 * work.options.filler_share) + " % that they may");
+  work.warn("fillers take " + short_number(100 * share) + " % of the sphere, more than the " +
+            short_number(100 * work.options.filler_share) + " % that they may");
 }
 
 bool embed(MapInProgress& work, const std::vector<Pin>& pins) {

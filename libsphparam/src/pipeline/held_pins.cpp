@@ -24,11 +24,16 @@ std::string words_of_fold(const Topology& topology, Face face) {
          corner(1) + " and " + corner(2) + "; no pin and no given pole was tried";
 }
 
+/// For its pins: poles that it has are held with them then, or it loses them.
+bool is_to_be_made_anew(const MapInProgress& work) {
+  return work.options.method != Method::Paper && !work.options.pins.empty();
+}
+
 }  // namespace
 
 std::vector<Pin> wanted_pins(MapInProgress& work) {
   std::vector<Pin> pins;
-  if (work.options.poles && !work.result.poles) {
+  if (work.options.poles && (!work.result.poles || is_to_be_made_anew(work))) {
     const auto [north, south] = *work.options.poles;
     if (north == south || work.topology.find_halfedge(north, south) >= 0) {
       work.warn("the poles are the same or share an edge: they cannot lie opposite each other");

@@ -7,8 +7,8 @@
 
 namespace sphparam {
 
-/// Given poles, unless the map has them or they cannot be opposite, and the given pins.
-/// Poles come first.
+/// Given poles, unless they cannot be opposite, or the map has them and stays as it is, and the
+/// given pins. Poles come first.
 std::vector<Pin> wanted_pins(MapInProgress& work);
 
 /// Tells how far the given pins are from their points. Are the poles, if they are among these pins,

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <numbers>
-#include <sstream>
 
 #include "elementary.h"
+#include "number_text.h"
 
 // A map without pins is the mesh on the sphere up to a rotation R. True pins p lie near R x,
 // mirrored ones near a reflection Q x; both are fitted by least squares. If deviations are normal,
@@ -33,9 +32,7 @@ std::string degrees(double sum, size_t pins) {
   const double chord = std::sqrt(sum / static_cast<double>(pins));
   const double sine = std::min(1.0, chord / 2);  // of half the angle
   const double angle = 2 * elementary::atan2(sine, std::sqrt(1 - sine * sine));
-  std::ostringstream text;
-  text << std::setprecision(2) << angle * 180 / std::numbers::pi;
-  return text.str();
+  return short_number(angle * 180 / std::numbers::pi, 2);
 }
 
 }  // namespace

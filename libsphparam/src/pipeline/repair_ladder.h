@@ -4,8 +4,8 @@
 
 namespace sphparam {
 
-/// Makes the map one-to-one, if it is not: by the first rung that does. Where none does the map
-/// stays as it is, and warnings say why.
+/// Makes the map one-to-one, if it is not: by the first rung that does. Where none does the map is
+/// that of the last rung that made one, folds and all, and warnings say why.
 void repair(MapInProgress& work);
 
 }  // namespace sphparam

@@ -19,7 +19,8 @@ struct StartOptions {
 
 /// One embedding from coarse to fine, by the energy and the quality asked for; what
 /// `embed_progressively` is made of. No map: a vertex found no room although its level was retried.
-/// Requires: `options` within their domain; `keep` has the pins. Throws: Cancelled.
+/// Requires: `options` within their domain, but that `least_area` may be more than 1: then all
+/// triangles are alike, and the smallest weigh more; `keep` has the pins. Throws: Cancelled.
 /// Cost: O(#F). Source: see progressive.h.
 ProgressiveEmbedding embed_by_levels(const TriangleMesh& mesh, const Topology& topology,
                                      const ProgressiveOptions& options, const KeptVertices& keep,
