@@ -102,6 +102,15 @@ TEST_CASE("place_landmarks: neighbours asked to be opposite stop on the way, not
   CHECK(certify(topology, placed.map).bijective());
 }
 
+TEST_CASE("place_landmarks: without a pin nothing moves, and nothing is said to be exact") {
+  const TriangleMesh mesh = icosphere(1);
+  const LandmarkPlacement placed =
+      place_landmarks(Topology(mesh), measure_source(mesh), {mesh.positions}, {});
+  CHECK(placed.map.points == mesh.positions);
+  CHECK(placed.rounds == 0);
+  CHECK_FALSE(placed.exact());
+}
+
 TEST_CASE("place_landmarks: can be cancelled before it has moved anything far") {
   const TriangleMesh mesh = icosphere(3);
   const Topology topology(mesh);

@@ -1,7 +1,6 @@
 #include "embedding/frame/landmarks.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,6 +11,7 @@
 #include "elementary.h"
 #include "embedding/constructions/orientations.h"
 #include "embedding/energy/energy_domain.h"
+#include "embedding/frame/nearest_rotation.h"
 #include "embedding/frame/pin_domain.h"
 #include "embedding/sweeps/relaxation.h"
 #include "mesh/triangle_geometry.h"
@@ -260,13 +260,7 @@ Eigen::Matrix3d best_rotation(const SphereMap& map, const std::vector<Pin>& pins
 }
 
 Eigen::Matrix3d best_rotation(const Points& from, const Points& to) {
-  // Σ to·fromᵀ = U S Vᵀ;  R = U diag(1, 1, ±1) Vᵀ with the sign that makes det R = 1.
-  const Eigen::Matrix3d covariance = to.transpose() * from;
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
-                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Matrix3d u = svd.matrixU();
-  if ((u * svd.matrixV().transpose()).determinant() < 0) u.col(2) *= -1;
-  return u * svd.matrixV().transpose();
+  return rotation_of(to.transpose() * from);
 }
 
 std::vector<double> pin_residuals(const SphereMap& map, const std::vector<Pin>& pins) {
@@ -287,6 +281,7 @@ LandmarkPlacement place_landmarks(const Topology& topology, const RestTriangles&
   require_at_least("most_rounds", options.most_rounds, 0);
   require_at_least("most_detours", options.most_detours, 0);
   require_pins(pins, topology.vertex_count());
+  if (pins.empty()) return {.map = map};
   return Traveller(topology, source, map, pins, options).run();
 }
 

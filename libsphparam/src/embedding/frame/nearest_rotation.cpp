@@ -15,6 +15,10 @@ Eigen::Matrix3d nearest_rotation(const Points& from, const Points& to, const Vec
   for (Eigen::Index v = 0; v < from.rows(); ++v) {
     covariance += weights[v] * Vector3(to.row(v)) * from.row(v);
   }
+  return rotation_of(covariance);
+}
+
+Eigen::Matrix3d rotation_of(const Eigen::Matrix3d& covariance) {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
                                               Eigen::ComputeFullU | Eigen::ComputeFullV);
   Eigen::Matrix3d u = svd.matrixU();

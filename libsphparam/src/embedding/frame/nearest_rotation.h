@@ -10,6 +10,9 @@ namespace sphparam {
 /// threads. Paper: Kabsch, "A solution for the best rotation to relate two sets of vectors" (1976).
 Eigen::Matrix3d nearest_rotation(const Points& from, const Points& to, const VectorX& weights);
 
+/// The same for any sum Σ w to·fromᵀ: the rotation R with the greatest trace of Rᵀ times it.
+Eigen::Matrix3d rotation_of(const Eigen::Matrix3d& covariance);
+
 /// The map with every ray turned, of unit length up to rounding. It may fold what is nearly flat.
 SphereMap turned(const SphereMap& map, const Eigen::Matrix3d& rotation);
 
