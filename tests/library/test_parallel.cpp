@@ -7,6 +7,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <future>
 #include <iostream>
 #include <stdexcept>
@@ -14,9 +15,13 @@
 #include <thread>
 #include <vector>
 
+#include "embedding/constructions/gnomonic.h"
+#include "embedding/constructions/grid_lift.h"
 #include "sphparam/errors.h"
 #include "sphparam/parallel.h"
+#include "sphparam/parameterize.h"
 #include "sphparam/stopped_by.h"
+#include "support/test_meshes.h"
 
 using namespace sphparam;
 
@@ -220,4 +225,23 @@ TEST_CASE("parallel: sums have the same bits for any number of threads") {
   const double one = parallel_sum(100000, 1, chunk);
   CHECK(parallel_sum(100000, 2, chunk) == one);
   CHECK(parallel_sum(100000, 5, chunk) == one);
+}
+
+TEST_CASE("parallel: who is to work by one thread makes no other") {
+  const TriangleMesh mesh = sphparam::tests::icosphere(5);  // several chunks of all loops
+  const Topology topology(mesh, 1);
+  const auto stays_alone = [](const auto& work) {
+    return status_of_fork([&] {
+      work();
+      const std::filesystem::directory_iterator tasks("/proc/self/task");
+      return std::distance(begin(tasks), end(tasks)) == 1;
+    });
+  };
+  CHECK(stays_alone([&] { Topology(mesh, 2); }) != 0);
+  for (const Method method :
+       {Method::Progressive, Method::Curvilinear, Method::Paper, Method::Radial})
+    CHECK(stays_alone([&] { parameterize(mesh, {.method = method, .threads = 1}); }) == 0);
+  CHECK(stays_alone([&] { repair_map(mesh, {mesh.positions}, {.threads = 1}); }) == 0);
+  CHECK(stays_alone([&] { gnomonic_embedding(mesh, topology, {.threads = 1}); }) == 0);
+  CHECK(stays_alone([&] { grid_lift(mesh, topology, {.threads = 1}); }) == 0);
 }

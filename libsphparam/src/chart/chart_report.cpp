@@ -33,7 +33,7 @@ ChartReport figures_of(const SphericalChart& chart) {
 
 std::optional<ChartReport> report_chart(const TriangleMesh& mesh, const SphereMap& map, int threads,
                                         const Progress& progress, int splits_a_vertex) {
-  const Topology topology(mesh);
+  const Topology topology(mesh, threads);
   const SphereMap unit = normalised(map.points);
   if (!certify(topology, unit, threads).bijective()) return std::nullopt;
   return figures_of(spherical_chart(mesh, topology, unit, threads, progress, splits_a_vertex));

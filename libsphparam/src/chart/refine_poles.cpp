@@ -24,10 +24,11 @@ struct Cut {
 
 class PoleRefiner {
  public:
-  PoleRefiner(SphericalChart& chart, const Triangles& source, int wedges)
+  PoleRefiner(SphericalChart& chart, const Triangles& source, int wedges, int threads)
       : chart_(chart),
         source_(source),
         wedges_(wedges),
+        threads_(threads),
         faces_(rows_of(chart.triangles)),
         vertices_(rows_of(chart.points)),
         points_of_(static_cast<size_t>(3 * faces_)) {}
@@ -56,7 +57,7 @@ class PoleRefiner {
 
   /// The edges opposite to a pole; one of both poles once.
   std::vector<Halfedge> find_links() {
-    const Topology topology(chart_.triangles, vertices_);
+    const Topology topology(chart_.triangles, vertices_, threads_);
     std::vector<Halfedge> links;
     for (Halfedge h = 0; h < topology.halfedge_count(); ++h) {
       if (!is_link(h) || (is_link(topology.twin(h)) && topology.twin(h) < h)) continue;
@@ -208,7 +209,7 @@ class PoleRefiner {
 
   SphericalChart& chart_;
   const Triangles& source_;
-  int wedges_;
+  int wedges_, threads_;
   Face faces_;
   Vertex vertices_;
   std::vector<std::vector<Vertex>> points_of_;  // of each half-edge, in its direction
@@ -226,7 +227,7 @@ SphericalChart refine_poles(SphericalChart chart, const Triangles& source, int w
   if (!chart.certificate.one_to_one())
     throw std::invalid_argument("refine_poles: the chart is not certified");
   if (wedges <= 1) return chart;
-  PoleRefiner(chart, source, wedges).refine();
+  PoleRefiner(chart, source, wedges, threads).refine();
   chart.certificate = certify_chart(chart, threads);
   return chart;
 }

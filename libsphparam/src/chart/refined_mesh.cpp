@@ -54,10 +54,6 @@ Triangles RefinedMesh::triangles() const {
   return Eigen::Map<const Triangles>(origin_.data(), face_count(), 3);
 }
 
-Vector3 RefinedMesh::along(Halfedge h, double t) const {
-  return ((1 - t) * point(origin(h)) + t * point(target(h))).stableNormalized();
-}
-
 bool RefinedMesh::fits(Halfedge h, const Vector3& ray) const {
   for (const Halfedge side : {h, twin(h)}) {
     const Vector3& c = point(apex(side));

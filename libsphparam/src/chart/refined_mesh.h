@@ -33,9 +33,6 @@ class RefinedMesh {
   /// Moves a vertex by rounding: where it lies in the source stays as it is.
   void snap(Vertex v, const Vector3& point) { points_[static_cast<size_t>(v)] = point; }
 
-  /// The point (1 − t)·a + t·b of the edge from a to b, of unit length.
-  Vector3 along(Halfedge h, double t) const;
-
   /// Are the four faces positive that splitting the edge of h at that ray would make? Exact.
   bool fits(Halfedge h, const Vector3& ray) const;
 

@@ -35,8 +35,8 @@ constexpr int landing_cells = 3;
 
 class Settling {
  public:
-  explicit Settling(const SphericalChart& chart)
-      : points_(chart.points), sheet_(chart), easing_(sheet_) {}
+  Settling(const SphericalChart& chart, int threads)
+      : points_(chart.points), sheet_(chart, threads), easing_(sheet_) {}
 
   void run() {
     if (is_deep()) unbend_folds();
@@ -329,7 +329,7 @@ void write(const Sheet& sheet, SphericalChart& chart) {
 
 SphericalChart settled(SphericalChart chart, int threads) {
   if (!chart.certificate.closed || chart.north < 0 || chart.south < 0) return chart;
-  Settling settling(chart);
+  Settling settling(chart, threads);
   settling.run();
   SphericalChart result = chart;
   write(settling.sheet(), result);

@@ -18,7 +18,7 @@ constexpr int most_spokes = 512;
 
 }  // namespace
 
-Sheet::Sheet(const SphericalChart& chart)
+Sheet::Sheet(const SphericalChart& chart, int threads)
     : origin_(static_cast<size_t>(chart.triangles.size())),
       twin_(origin_.size()),
       outgoing_(static_cast<size_t>(chart.points.rows())),
@@ -29,7 +29,7 @@ Sheet::Sheet(const SphericalChart& chart)
       north_(chart.north),
       south_(chart.south),
       marks_(outgoing_.size(), 0) {
-  const Topology topology(chart.triangles, vertex_count());
+  const Topology topology(chart.triangles, vertex_count(), threads);
   for (Halfedge h = 0; h < topology.halfedge_count(); ++h) {
     const auto v = static_cast<size_t>(topology.origin(h));
     origin_[static_cast<size_t>(h)] = topology.origin(h);

@@ -29,7 +29,7 @@ class Sheet {
   static constexpr double cells = 0x1p24;  // a turn of u, and of v
 
   /// Requires: `chart.certificate.closed`.
-  explicit Sheet(const SphericalChart& chart);
+  explicit Sheet(const SphericalChart& chart, int threads = 0);
 
   int vertex_count() const { return static_cast<int>(places_.size()); }
   int face_count() const { return static_cast<int>(in_west_.size()); }

@@ -341,7 +341,7 @@ GnomonicEmbedding gnomonic_embedding(const TriangleMesh& mesh, const Topology& t
   require_between("lambda", options.lambda, 0, greatest_lambda);
   require_at_least("reweightings", options.reweightings, 0);
   require_at_least("sweeps", options.sweeps, 0);
-  const RestTriangles source = measure_source(mesh);
+  const RestTriangles source = measure_source(mesh, options.threads);
   std::optional<GnomonicEmbedding> best;
   int attempts = 0;
   for (const Vertex south : vertices_to_leave_out(topology, options.south)) {

@@ -189,7 +189,7 @@ GridLift grid_lift(const TriangleMesh& mesh, const Topology& topology,
   require_domain(options.energy);
   require_at_least("sweeps", options.sweeps, 0);
   report(options.progress, "grid lift", 0);
-  const RestTriangles source = measure_source(mesh);
+  const RestTriangles source = measure_source(mesh, options.threads);
   GridLift result;
   std::optional<Points> rays;
   for (const Vertex south : vertices_to_leave_out(topology, source)) {
