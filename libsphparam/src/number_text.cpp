@@ -2,14 +2,14 @@
 
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 
 namespace sphparam {
 
 std::string short_number(double value, int digits) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*g", digits, value);
-  return text;
+  char text[32];  // by no locale: the library may be part of a program that has set one
+  const auto end =
+      std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits);
+  return {text, end.ptr};
 }
 
 std::string percent(double share, int digits) {
@@ -35,9 +35,9 @@ std::string counted(long count, std::string_view one, std::string_view many) {
 
 std::string joined(const std::vector<std::string>& words, std::string_view between) {
   std::string text;
-  for (const std::string& word : words) {
-    if (!text.empty()) text += between;
-    text += word;
+  for (size_t i = 0; i < words.size(); ++i) {
+    if (i > 0) text += between;
+    text += words[i];
   }
   return text;
 }

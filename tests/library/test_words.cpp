@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <clocale>
 #include <limits>
 #include <string>
 
@@ -24,6 +25,14 @@ TEST_CASE("number_text: as many digits as people read, or all that matter") {
     CHECK(std::stod(shortest(value)) == value);
 }
 
+TEST_CASE("number_text: numbers have a point, whatever locale the program has set") {
+  const bool set = std::setlocale(LC_NUMERIC, "de_DE.UTF-8") != nullptr;
+  if (!set) WARN("skipped: there is no German locale");
+  CHECK(short_number(0.5) == "0.5");
+  CHECK(percent(0.125) == "12.5 %");
+  std::setlocale(LC_NUMERIC, "C");
+}
+
 TEST_CASE("number_text: one is one, and lists have commas") {
   CHECK(counted(1, "skin") == "1 skin");
   CHECK(counted(0, "skin") == "0 skins");
@@ -32,6 +41,7 @@ TEST_CASE("number_text: one is one, and lists have commas") {
   CHECK(joined({}).empty());
   CHECK(joined({"a"}) == "a");
   CHECK(joined({"a", "", "b"}) == "a, , b");
+  CHECK(joined({"", "a"}) == ", a");
   CHECK(joined({"a", "b"}, "; ") == "a; b");
 }
 
