@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -45,6 +46,36 @@ TEST_CASE("export: a mesh made of another shows that one's colours where it carr
   REQUIRE(look.images.size() == own.images.size());
   CHECK(look.images[0].bytes == own.images[0].bytes);
   CHECK(look.materials[0].name == "checker");
+}
+
+TEST_CASE("export: far from the origin positions are as fine as near it, and a node moves them") {
+  const Place place;
+  const Eigen::RowVector3d far(391234.25, 5821456.5, 34.125);
+  MeshFile file = mapped_egg(3).file();
+  for (const bool quantise : {false, true}) {
+    file.mesh.positions = mapped_egg(3).mesh().positions.rowwise() + far;
+    const MappedMesh scan({.file = file, .map = mapped_egg(3).map(), .name = "scan.obj"});
+    ExportOptions options = small;
+    options.quantise = quantise;
+    options.coarser.push_back(
+        MappedMesh({.file = file, .map = mapped_egg(3).map(), .name = "scan.obj"}));
+    write_asset(place / "far.glb", make_asset(scan, options), {.quantise = quantise});
+    const Points read = read_mesh(place / "far.glb").mesh.positions;
+    // z up becomes y up.
+    const double half_step = quantise ? 2.61 / 65535 / 2 : std::ldexp(1, -23);
+    for (Vertex v = 0; v < file.mesh.vertex_count(); ++v) {
+      const Vector3 p = file.mesh.position(v);
+      CHECK((read.row(v).transpose() - Vector3(p.x(), p.z(), -p.y())).cwiseAbs().maxCoeff() <=
+            half_step);
+    }
+    const auto nodes = json_of(bytes_of(place / "far.glb"))["nodes"];
+    CHECK(nodes[0]["translation"] == nodes[1]["translation"]);
+    if (!quantise) CHECK(nodes[0]["translation"] == nlohmann::json({391234, 34, -5821456}));
+  }
+  file.mesh.positions = mapped_egg(3).mesh().positions.rowwise() + Eigen::RowVector3d(0, 20, 0);
+  const MappedMesh near({.file = file, .map = mapped_egg(3).map(), .name = "near.obj"});
+  write_asset(place / "near.glb", make_asset(near, small));
+  CHECK_FALSE(json_of(bytes_of(place / "near.glb"))["nodes"][0].contains("translation"));
 }
 
 TEST_CASE("export: colours of vertices that have several are baked, others written as they are") {

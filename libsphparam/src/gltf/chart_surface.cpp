@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
@@ -75,12 +76,33 @@ FloatRows gather_tangents(const Shape& shape, const Numbering& numbering, bool m
   return tangents;
 }
 
+/// Near the middle of what is farther from the origin than is good for float32; else the origin. A
+/// multiple of a power of two that is not above the extent: differences from it are exact.
+Eigen::RowVector3d origin_for_float32(const Points& positions) {
+  constexpr double farthest = 16;  // extents: so much of float32's digits is lost
+  const Eigen::RowVector3d least = positions.colwise().minCoeff(),
+                           greatest = positions.colwise().maxCoeff();
+  const double extent = (greatest - least).maxCoeff(),
+               size = greatest.cwiseAbs().cwiseMax(least.cwiseAbs()).maxCoeff();
+  if (!(extent > 0 && size > farthest * extent)) return Eigen::RowVector3d::Zero();
+  const double step = std::ldexp(1.0, std::ilogb(extent));
+  return step * ((0.5 * least + 0.5 * greatest) / step).array().round().matrix();
+}
+
+/// Rows of positions, from an origin.
+FloatRows gather_from(const Eigen::RowVector3d& origin, const Shape& shape,
+                      const Numbering& numbering) {
+  if (origin.isZero(0)) return gather(shape.positions, numbering);
+  return gather((shape.positions.rowwise() - origin).eval(), numbering);
+}
+
 /// What float32 leaves: x − float32(x).
-FloatRows remainder(const Shape& shape, const FloatRows& stored, const Numbering& numbering) {
+FloatRows remainder(const Shape& shape, const Surface& surface, const Numbering& numbering) {
+  const FloatRows& stored = surface.positions;
   FloatRows low(stored.rows(), 3);
   for (Eigen::Index i = 0; i < low.rows(); ++i) {
     const auto x = shape.positions.row(numbering.wedges[static_cast<size_t>(i)]);
-    low.row(i) = (x - stored.row(i).cast<double>()).cast<float>();
+    low.row(i) = (x - surface.origin - stored.row(i).cast<double>()).cast<float>();
   }
   return low;
 }
@@ -134,15 +156,16 @@ std::vector<std::array<std::uint16_t, 4>> vertex_colours(const SphericalChart& c
   return colours;
 }
 
-void require_float32(const FloatRows& positions) {
-  if (!positions.allFinite())
+template <class Rows>
+void require_float32(const Rows& positions) {
+  if (!(positions.array().abs() <= std::numeric_limits<float>::max()).all())
     throw std::range_error("a position is beyond what glTF's float32 holds: scale the mesh down");
 }
 
 MorphTarget morph_target(const NamedShape& to, const Surface& from, const Numbering& numbering,
                          bool mirrored) {
   MorphTarget target{to.name,
-                     gather(to.shape.positions, numbering) - from.positions,
+                     gather_from(from.origin, to.shape, numbering) - from.positions,
                      gather(to.shape.frame.normals, numbering) - from.normals,
                      {}};
   require_float32(target.positions);
@@ -162,9 +185,10 @@ Surface chart_surface(const SphericalChart& chart, const Shape& shape,
       options.source_texcoords ? number_with_texcoords(chart, mesh) : number_wedges(chart);
   const bool mirrored = options.uv.mirrored;
   Surface surface;
-  surface.positions = gather(shape.positions, numbering);
-  require_float32(surface.positions);
+  require_float32(shape.positions);
   require_float32_least(shape.positions, "glTF");
+  surface.origin = origin_for_float32(shape.positions);
+  surface.positions = gather_from(surface.origin, shape, numbering);
   surface.normals = gather(shape.frame.normals, numbering);
   if (options.tangents) surface.tangents = gather_tangents(shape, numbering, mirrored);
   surface.texcoords.push_back(gather(stored_uv(chart, options.uv), numbering));
@@ -173,7 +197,7 @@ Surface chart_surface(const SphericalChart& chart, const Shape& shape,
   if (options.theta_phi)
     surface.custom.push_back({"_THETA_PHI", theta_phi(chart, numbering, theta_offset)});
   if (options.position_lo)
-    surface.custom.push_back({"_POSITION_LO", remainder(shape, surface.positions, numbering)});
+    surface.custom.push_back({"_POSITION_LO", remainder(shape, surface, numbering)});
   for (const NamedShape& target : targets)
     surface.targets.push_back(morph_target(target, surface, numbering, mirrored));
   surface.indices = std::move(numbering.indices);

@@ -30,7 +30,7 @@ struct CustomAttribute {
 
 /// The vertex and index buffers of one primitive. What a mesh does not have is empty.
 struct Surface {
-  FloatRows positions;                                // #N×3, y up
+  FloatRows positions;                                // #N×3, y up, from the origin
   FloatRows normals;                                  // #N×3, unit
   FloatRows tangents;                                 // #N×4
   std::vector<FloatRows> texcoords;                   // #N×2 each, v downwards
@@ -38,6 +38,9 @@ struct Surface {
   std::vector<CustomAttribute> custom;
   std::vector<std::uint32_t> indices;  // three a triangle
   std::vector<MorphTarget> targets;
+  /// Zero, but for shapes that are far from it for their size, of which float32 would leave little:
+  /// where their positions begin, as its node's translation. Exact: origin + what was rounded.
+  Eigen::RowVector3d origin = Eigen::RowVector3d::Zero();
 
   std::size_t vertex_count() const { return static_cast<std::size_t>(positions.rows()); }
 };
