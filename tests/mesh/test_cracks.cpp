@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <limits>
+#include <numeric>
+#include <random>
 
 #include "sphparam/mesh/mesh_repair.h"
 #include "support/test_meshes.h"
@@ -104,6 +107,57 @@ TEST_CASE("cracks: a tolerance larger than the faces takes no face's vertices to
   for (Eigen::Index f = 0; f < repaired.mesh.face_count(); ++f) {
     const auto face = repaired.mesh.triangles.row(f);
     CHECK((face[0] != face[1] && face[1] != face[2] && face[2] != face[0]));
+  }
+}
+
+TEST_CASE("cracks: an edge is split at all vertices on it, in their order") {
+  // A face above a segment that n faces below it have vertices on, in shuffled order.
+  constexpr int n = 1024;
+  TriangleMesh mesh{Points(n + 3, 3), Triangles(n + 1, 3)};
+  const auto at = [](int i) { return i == 0 || i == n ? i : 1 + (i * 388 + 5) % (n - 1); };
+  for (int i = 0; i <= n; ++i) mesh.positions.row(at(i)) << static_cast<double>(i) / n, 0, 0;
+  mesh.positions.row(n + 1) << 0.5, 1, 0;
+  mesh.positions.row(n + 2) << 0.5, -1, 0;
+  mesh.triangles.row(n) << 0, n, n + 1;
+  for (int i = 0; i < n; ++i) mesh.triangles.row(i) << at(i + 1), at(i), n + 2;
+  RepairOptions options = RepairOptions::none();
+  options.cracks = true;
+  const RepairedMesh repaired = repair_mesh(mesh, options);
+  CHECK(count(repaired, RepairKind::EdgeSplitAtVertex) == n - 1);
+  REQUIRE(repaired.mesh.face_count() == 2 * n);
+  for (int i = 0; i < n; ++i)
+    CHECK(repaired.mesh.triangles.row(n + i) == Eigen::RowVector3i(at(i), at(i + 1), n + 1));
+}
+
+TEST_CASE("cracks: 100,000 loose faces at a hub, and as many beside longer ones, are no matter") {
+  constexpr int many = 100000;
+  TriangleMesh mesh{Points(3 * many, 3), Triangles(many, 3)};
+  std::iota(mesh.triangles.data(), mesh.triangles.data() + mesh.triangles.size(), 0);
+  RepairOptions options = RepairOptions::none();
+  options.cracks = true;
+  SECTION("at a hub") {
+    for (int i = 0; i < many; ++i) {
+      const double a = 6.283185307179586 * i / many, b = 6.283185307179586 * (i + 1) / many;
+      mesh.positions.row(3 * i) << 0, 0, 1;
+      mesh.positions.row(3 * i + 1) << std::cos(a), std::sin(a), 0;
+      mesh.positions.row(3 * i + 2) << std::cos(b), std::sin(b), 0;
+    }
+    CHECK(repair_mesh(mesh, options).actions.empty());
+    options.weld_length = 1e-9;
+    CHECK(count(repair_mesh(mesh, options), RepairKind::VertexWelded) == 2 * many - 1);
+  }
+  SECTION("beside longer ones") {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    for (int i = 0; i < many; ++i) {
+      const bool is_long = i % 10 == 0;
+      const Vector3 middle = (is_long ? 1 : 1e-3) * Vector3(uniform(random), uniform(random), 0);
+      for (int k = 0; k < 3; ++k)
+        mesh.positions.row(3 * i + k) =
+            middle + (is_long ? 1 : 1e-5) * Vector3(uniform(random), uniform(random), 1);
+    }
+    options.weld_length = 1e-12;
+    CHECK(repair_mesh(mesh, options).actions.empty());
   }
 }
 

@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <optional>
+#include <span>
+#include <tuple>
 #include <unordered_map>
+#include <utility>
 
 #include "mesh/box.h"
 #include "mesh/face_sides.h"
@@ -14,13 +16,16 @@
 // asked for, each becomes one with the vertex of lowest id within the tolerance, unless a face has
 // both; as those that stay are apart by more than the tolerance, nothing creeps. Then an edge with
 // one face is split at the boundary vertices that lie within the tolerance of its interior
-// (T-junctions); without a tolerance at those that lie on it but for rounding. Places are found by
-// a grid of cells, whose size is that of a usual edge, so that a cell has few.
+// (T-junctions); without a tolerance at those that lie on it but for rounding. What stays is found
+// by a grid of cells as large as the tolerance, of which each has few; what lies along an edge by a
+// tree of boxes, whatever the lengths of edges are, and however many vertices lie in one place.
 
 namespace sphparam {
 namespace {
 
 constexpr double rounding = 0x1p-50;  // of a place on an edge, in lengths of the unit box
+
+constexpr double least_cell = 0x1p-60;  // whose numbers are whole ones in the box from −1 to 1
 
 /// Boundary vertices by the cells of a grid.
 class Grid {
@@ -41,8 +46,6 @@ class Grid {
     }
   }
 
-  double cell() const { return cell_; }
-
  private:
   using Cell = std::array<std::int64_t, 3>;
   /// Each coordinate times a large odd number.
@@ -54,18 +57,102 @@ class Grid {
       return hash;
     }
   };
-  /// Boundaries without extent have cells so small that some have no whole number: what is as far
-  /// as that shares its last one.
   Cell cell_of(const Vector3& p) const {
-    constexpr double far = 0x1p62;
     Cell cell;
-    for (int k = 0; k < 3; ++k)
-      cell[k] = static_cast<std::int64_t>(std::clamp(std::floor(p[k] / cell_), -far, far));
+    for (int k = 0; k < 3; ++k) cell[k] = static_cast<std::int64_t>(std::floor(p[k] / cell_));
     return cell;
   }
 
   double cell_;
   std::unordered_map<Cell, std::vector<Vertex>, CellHash> cells_;
+};
+
+/// Vertices by their places, in halves of halves.
+class PlaceTree {
+ public:
+  using Place = std::span<const Vertex>;  // all that are there, in ascending order
+
+  PlaceTree(const std::vector<Vector3>& shape, std::vector<Vertex> vertices)
+      : shape_(shape), vertices_(std::move(vertices)) {
+    std::sort(vertices_.begin(), vertices_.end(), [&](Vertex a, Vertex b) {
+      return std::tie(shape_[a].x(), shape_[a].y(), shape_[a].z(), a) <
+             std::tie(shape_[b].x(), shape_[b].y(), shape_[b].z(), b);
+    });
+    for (size_t i = 0, j = 0; i < vertices_.size(); i = j) {
+      while (j < vertices_.size() && shape_[vertices_[j]] == shape_[vertices_[i]]) ++j;
+      places_.emplace_back(&vertices_[i], j - i);
+    }
+    if (!places_.empty()) grow(0, places_.size());
+  }
+  PlaceTree(const PlaceTree&) = delete;
+  PlaceTree& operator=(const PlaceTree&) = delete;
+
+  /// Calls visit(place) for all that are as near as this to the segment, and a few more.
+  template <class Visit>
+  void along(const Vector3& a, const Vector3& b, double near, const Visit& visit) const {
+    std::vector<size_t> waiting;
+    if (!nodes_.empty()) waiting.push_back(0);
+    while (!waiting.empty()) {
+      const size_t at = waiting.back();
+      const Node& node = nodes_[at];
+      waiting.pop_back();
+      if (!meets(node.box, a, b, near)) continue;
+      if (node.right > 0) {
+        waiting.insert(waiting.end(), {node.right, at + 1});
+      } else {
+        for (size_t i = node.first; i < node.last; ++i) visit(places_[i]);
+      }
+    }
+  }
+
+ private:
+  struct Node {
+    Box box;
+    size_t first, last;
+    size_t right = 0;  // 0: a leaf; else its left half comes next
+  };
+
+  const Vector3& point(const Place& place) const { return shape_[place.front()]; }
+
+  void grow(size_t first, size_t last) {
+    constexpr size_t leaf = 8;
+    const size_t at = nodes_.size(), middle = first + (last - first) / 2;
+    nodes_.push_back({Box{}, first, last});
+    Box& box = nodes_.back().box;
+    for (size_t i = first; i < last; ++i) box.add(point(places_[i]));
+    if (last - first <= leaf) return;
+    Eigen::Index axis = 0;
+    (box.upper - box.lower).maxCoeff(&axis);
+    const auto begin = places_.begin();
+    std::nth_element(
+        begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(middle),
+        begin + static_cast<std::ptrdiff_t>(last), [&](const Place& x, const Place& y) {
+          return std::pair(point(x)[axis], x.front()) < std::pair(point(y)[axis], y.front());
+        });
+    grow(first, middle);
+    nodes_[at].right = nodes_.size();
+    grow(middle, last);
+  }
+
+  /// Whether a segment meets a box that is larger by `near` on all sides.
+  static bool meets(const Box& box, const Vector3& a, const Vector3& b, double near) {
+    double enters = 0, leaves = 1;
+    for (int k = 0; k < 3; ++k) {
+      const double lower = box.lower[k] - near, upper = box.upper[k] + near;
+      const double along = b[k] - a[k];
+      if (std::max(a[k], b[k]) < lower || std::min(a[k], b[k]) > upper) return false;
+      if (std::abs(along) <= near) continue;
+      const double first = (lower - a[k]) / along, last = (upper - a[k]) / along;
+      enters = std::max(enters, std::min(first, last));
+      leaves = std::min(leaves, std::max(first, last));
+    }
+    return enters <= leaves;
+  }
+
+  const std::vector<Vector3>& shape_;
+  std::vector<Vertex> vertices_;
+  std::vector<Place> places_;
+  std::vector<Node> nodes_;
 };
 
 /// Sides with no face on the other side, by half-edge.
@@ -88,12 +175,6 @@ std::vector<Vertex> vertices_of(const std::vector<FaceSide>& sides) {
   return vertices;
 }
 
-double mean_length(const RepairState& state, const std::vector<FaceSide>& sides) {
-  double sum = 0;
-  for (const FaceSide& side : sides) sum += (state.shape[side.low] - state.shape[side.high]).norm();
-  return sum / static_cast<double>(sides.size());
-}
-
 /// Of the box about the surface, as `shape` has it.
 double diagonal(const RepairState& state) {
   Box box;
@@ -111,7 +192,7 @@ class CrackCloser {
   void weld() {
     if (sides_.empty()) return;
     find_faces_of_boundary();
-    Grid staying(cell_size());
+    Grid staying(std::max(2 * tolerance_, least_cell));
     for (const Vertex v : vertices_of(sides_)) {
       const std::optional<Vertex> onto = twin(v, staying);
       if (onto)
@@ -132,14 +213,13 @@ class CrackCloser {
 
  private:
   bool split_once() {
-    Grid grid(cell_size());
-    for (const Vertex v : vertices_of(sides_)) grid.add(v, state_.shape[v]);
+    const PlaceTree tree(state_.shape, vertices_of(sides_));
     std::vector<char> is_split(state_.faces.size(), 0);
     bool any = false;
     for (const FaceSide& side : sides_) {
       const Face f = side.halfedge / 3;
       if (is_split[f]) continue;
-      const std::vector<Vertex> stops = on_side(side, grid);
+      const std::vector<Vertex> stops = on_side(side, tree);
       if (stops.empty()) continue;
       is_split[f] = any = true;
       split(side.halfedge, stops);
@@ -147,10 +227,8 @@ class CrackCloser {
     return any;
   }
 
-  double cell_size() const {
-    const double least = std::numeric_limits<float>::min();
-    return std::max({2 * tolerance_, mean_length(state_, sides_), least});
-  }
+  /// As near as this to an edge is on it.
+  double near() const { return std::max(tolerance_, rounding); }
 
   void find_faces_of_boundary() {
     std::vector<char> on_boundary(state_.positions.size(), 0);
@@ -201,28 +279,28 @@ class CrackCloser {
     const double length = edge.norm();
     if (!(length > 0)) return std::nullopt;
     const double t = to.dot(edge) / (length * length);
-    const double near = std::max(tolerance_, rounding);
-    const bool inside = t * length > near && (1 - t) * length > near;
-    if (!inside || (to - t * edge).norm() > near) return std::nullopt;
+    const bool inside = t * length > near() && (1 - t) * length > near();
+    if (!inside || (to - t * edge).norm() > near()) return std::nullopt;
     return t;
   }
 
-  std::vector<Vertex> on_side(const FaceSide& side, const Grid& grid) const {
+  /// The vertices on a side in the order of its face: of one place that with the lowest number, of
+  /// places side by side too.
+  std::vector<Vertex> on_side(const FaceSide& side, const PlaceTree& tree) const {
     const Vertex a = state_.corner(side.halfedge), b = a == side.low ? side.high : side.low;
     const auto& corners = state_.faces[side.halfedge / 3];
     std::map<double, Vertex> stops;
-    const Vector3 edge = state_.shape[b] - state_.shape[a];
-    const auto steps = static_cast<long>(edge.norm() / grid.cell()) + 1;
-    for (long i = 0; i <= steps; ++i) {
-      const double share = static_cast<double>(i) / static_cast<double>(steps);
-      grid.around(state_.shape[a] + share * edge, [&](Vertex v) {
-        if (std::find(corners.begin(), corners.end(), v) != corners.end()) return;
-        if (const std::optional<double> t = place_on(a, b, v)) stops.try_emplace(*t, v);
+    tree.along(state_.shape[a], state_.shape[b], 2 * near(), [&](const PlaceTree::Place& place) {
+      const auto v = std::find_if(place.begin(), place.end(), [&](Vertex other) {
+        return std::find(corners.begin(), corners.end(), other) == corners.end();
       });
-    }
+      const std::optional<double> t = v == place.end() ? std::nullopt : place_on(a, b, *v);
+      if (!t) return;
+      const auto [stop, is_new] = stops.try_emplace(*t, *v);
+      if (!is_new) stop->second = std::min(stop->second, *v);
+    });
     std::vector<Vertex> vertices;
-    for (const auto& [t, v] : stops)
-      if (std::find(vertices.begin(), vertices.end(), v) == vertices.end()) vertices.push_back(v);
+    for (const auto& [t, v] : stops) vertices.push_back(v);
     return vertices;
   }
 
