@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -46,6 +47,31 @@ TEST_CASE("textured_mesh: properties come along, the map's own are left out") {
   CHECK(mesh.find_vertex_property("red")->values.back() == 77);
   CHECK_FALSE(mesh.find_vertex_property("sx"));
   CHECK((mesh.mesh.positions.rowwise().norm().array() - 1).abs().maxCoeff() < 1e-12);
+}
+
+TEST_CASE("textured_mesh: of labels a new vertex has one of its corners', colours are mixed") {
+  Charted egg;
+  std::vector<double> sides;
+  for (Vertex v = 0; v < egg.file.mesh.vertex_count(); ++v) sides.push_back(v % 2 == 0 ? 0 : 100);
+  for (const char* name : {"label", "red"})
+    egg.file.set_vertex_property({name, ScalarType::Int32, sides});
+  egg.file.set_vertex_property({"depth", ScalarType::Float32, sides});
+  const MeshFile mesh = textured_mesh(egg.chart, egg.file, ShapeKind::Mesh);
+  const auto mixed = [&](const char* name) {
+    return std::ranges::count_if(mesh.find_vertex_property(name)->values,
+                                 [](double value) { return value > 0 && value < 100; });
+  };
+  REQUIRE(mixed("depth") > 10);
+  CHECK(mixed("red") > 10);
+  CHECK(mixed("label") == 0);
+  const auto& points = egg.chart.chart.surface_points;
+  for (size_t v = 0; v < points.size(); ++v) {
+    double all = 0;  // the weight of 100
+    for (int k = 0; k < 3; ++k)
+      if (egg.file.mesh.triangles(points[v].face, k) % 2 == 1) all += points[v].barycentric[k];
+    if (std::abs(all - 0.5) > 1e-9)
+      CHECK(mesh.find_vertex_property("label")->values[v] == (all > 0.5 ? 100 : 0));
+  }
 }
 
 TEST_CASE("textured_mesh: the library names the image for the material that the OBJ uses") {

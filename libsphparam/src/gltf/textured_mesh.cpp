@@ -1,17 +1,21 @@
 #include "gltf/textured_mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "io/attributes/corner_colours.h"
 #include "io/attributes/shading_normals.h"
+#include "io/attributes/weightiest_label.h"
 #include "sphparam/chart/carry_attributes.h"
 #include "sphparam/chart/tangent_frame.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/up_axis.h"
 
-// Attributes are carried one by one. What belongs to the map or is given by it (rays, angles,
-// normals, texture coordinates of the source) is left out or made anew.
+// Attributes are carried one by one, as remesh carries them: numbers and colours are interpolated,
+// other whole numbers are labels. What belongs to the map or is given by it (rays, angles, normals,
+// texture coordinates of the source) is left out or made anew.
 
 namespace sphparam {
 namespace {
@@ -25,22 +29,47 @@ bool is_made_anew(const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+bool is_label(const Property& property) {
+  static constexpr std::array<std::string_view, 4> colours = {"red", "green", "blue", "alpha"};
+  return !is_floating(property.type) && std::ranges::find(colours, property.name) == colours.end();
+}
+
 Property rounded(Property property) {
   if (is_floating(property.type)) return property;
   for (double& value : property.values) value = std::round(value);
   return property;
 }
 
+/// A new vertex gets that of the corners which weigh most, never a mean.
+std::vector<double> carry_labels(const SphericalChart& chart, const Triangles& source,
+                                 const std::vector<double>& labels) {
+  std::vector<double> carried;
+  for (const SurfacePoint& point : chart.surface_points) {
+    std::array<std::pair<double, double>, 3> labelled;
+    for (int k = 0; k < 3; ++k)
+      labelled[static_cast<size_t>(k)] = {labels[static_cast<size_t>(source(point.face, k))],
+                                          point.barycentric[k]};
+    carried.push_back(weightiest_label(labelled));
+  }
+  return carried;
+}
+
+/// values(property) are those of what is left.
 template <class Carry>
-void carry(const std::vector<Property>& properties, std::vector<Property>& to, Carry&& carried) {
+void carry(const std::vector<Property>& properties, std::vector<Property>& to, Carry&& values) {
   for (const Property& property : properties) {
     if (is_made_anew(property.name) || is_corner_colour(property.name)) continue;
-    const Attributes values = Eigen::Map<const VectorX>(
-        property.values.data(), static_cast<Eigen::Index>(property.values.size()));
-    const Attributes refined = carried(values);
-    to.push_back(rounded({property.name, property.type,
-                          std::vector<double>(refined.data(), refined.data() + refined.size())}));
+    to.push_back(rounded({property.name, property.type, values(property)}));
   }
+}
+
+Attributes column_of(const Property& property) {
+  return Eigen::Map<const VectorX>(property.values.data(),
+                                   static_cast<Eigen::Index>(property.values.size()));
+}
+
+std::vector<double> as_list(const Attributes& column) {
+  return {column.data(), column.data() + column.size()};
 }
 
 void add_normals(MeshFile& file, const Points& normals) {
@@ -65,9 +94,13 @@ MeshFile textured_mesh(const ExportChart& exported, const MeshFile& source, Shap
   file.mesh.triangles = chart.triangles;
   const bool is_sphere = shape == ShapeKind::Sphere;
   file.mesh.positions = is_sphere ? chart.points : Points(of_vertices(source.mesh.positions));
-  carry(source.vertex_properties, file.vertex_properties, of_vertices);
-  carry(source.face_properties, file.face_properties,
-        [&](const Attributes& values) { return carry_face_attribute(chart, triangles, values); });
+  carry(source.vertex_properties, file.vertex_properties, [&](const Property& property) {
+    return is_label(property) ? carry_labels(chart, triangles, property.values)
+                              : as_list(of_vertices(column_of(property)));
+  });
+  carry(source.face_properties, file.face_properties, [&](const Property& property) {
+    return as_list(carry_face_attribute(chart, triangles, column_of(property)));
+  });
   add_normals(file, is_sphere ? chart.points
                               : carry_normals(chart, triangles, shading_normals(source), threads));
   if (exported.wedge_normals && !is_sphere) {
