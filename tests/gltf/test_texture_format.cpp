@@ -134,6 +134,9 @@ TEST_CASE("texture format: WebP that is given stays where webp is wanted, and el
     CHECK(kinds(png) == std::vector<std::string>(4, "png"));
     CHECK((decoded(png.images[0]).pixels == decoded(webp.images[0]).pixels));
   }
+  const Look jpeg = encoded(webp, TextureFormat::Jpeg);  // colours without alpha
+  CHECK(kinds(jpeg) == std::vector<std::string>{"png", "png", "png", "jpeg"});
+  CHECK_FALSE(jpeg.textures[3].exact);
 }
 
 TEST_CASE("texture format: 16 bits that become 8 are told, and what WebP has no room for") {

@@ -82,9 +82,8 @@ class TextureEncoder {
   TextureFigures encode(std::string& warning) {
     TextureFigures told{.name = image_.name, .given_bytes = image_.bytes.size()};
     const bool was_deep = has_sixteen_bits(image_.bytes);
-    if (must_be_png()) {
-      take(encoded(encode_image(decoded(), ImageFormat::Png), true));
-    } else if (const std::optional<Encoded> other = in_format(warning)) {
+    if (must_be_png()) take(encoded(encode_image(decoded(), ImageFormat::Png), true));
+    if (const std::optional<Encoded> other = in_format(warning)) {
       told.exact = other->bytes.size() >= image_.bytes.size() || other->exact;
       if (other->bytes.size() < image_.bytes.size()) take(*other);
     }
