@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -152,6 +153,34 @@ TEST_CASE("morph: the looks of both surfaces are there, that of a bare one only 
   CHECK(names(other) == Names{"other", "checker"});
   CHECK(other.levels[0].colours.empty());
   CHECK(other.materials[1].base_colour == 1);
+}
+
+TEST_CASE("morph: what is told of either look is told, and of both once") {
+  const auto dressed = [](const MappedMesh& mapped, double roughness) {
+    MeshFile file = mapped.file();
+    file.materials = {"m"};
+    file.base_colours.resize(1);
+    file.channels.resize(1);
+    file.channels[0].metallic.factor = {0, 0, 0, 1};
+    file.channels[0].roughness.factor[0] = roughness;
+    file.set_face_property(
+        {"material", ScalarType::Int32, std::vector<double>(file.mesh.face_count(), 0)});
+    file.corner_texcoords = CornerTexcoords::Zero(file.mesh.triangles.size(), 2);
+    return MappedMesh({.file = std::move(file), .map = mapped.map(), .name = mapped.name()});
+  };
+  const SurfaceMap bare = two_pears();
+  const std::string told =
+      "not carried: roughness of its materials: `bake --map channels` makes images of all";
+  const MappedMesh plain_from = dressed(bare.from(), 1), plain_to = dressed(bare.to(), 1);
+  const MappedMesh rough_from = dressed(bare.from(), 0.5), rough_to = dressed(bare.to(), 0.5);
+  const auto times = [&](const MappedMesh& from, const MappedMesh& to) {
+    const Asset asset = make_morph({from, to}, Placement::Scaled, small);
+    return std::ranges::count(asset.warnings, told);
+  };
+  CHECK(times(plain_from, plain_to) == 0);
+  CHECK(times(rough_from, plain_to) == 1);
+  CHECK(times(plain_from, rough_to) == 1);
+  CHECK(times(rough_from, rough_to) == 1);
 }
 
 TEST_CASE("morph: the same bytes for one thread and three") {

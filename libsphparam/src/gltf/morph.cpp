@@ -28,6 +28,9 @@ void append(Look& look, Look other) {
   }
   for (AssetImage& image : other.images) look.images.push_back(std::move(image));
   std::ranges::move(other.textures, std::back_inserter(look.textures));
+  for (std::string& warning : other.warnings)  // of an image that both have, once
+    if (std::ranges::find(look.warnings, warning) == look.warnings.end())
+      look.warnings.push_back(std::move(warning));
 }
 
 Look named(Look look, const std::string& name) {
