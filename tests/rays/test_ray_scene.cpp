@@ -184,7 +184,7 @@ TEST_CASE("ray scene: nearest points stay exact far away, far from the origin an
   const Vector3 beyond = 1e15 * random.point();
   CHECK(scene.nearest(beyond).squared_distance ==
         Approx(by_brute_force(soup, beyond).squared_distance).epsilon(1e-14));
-  for (const double scale : {1e-60, 1e-3, 1e60}) {
+  for (const double scale : {1e-140, 1e-60, 1e-3, 1e60, 1e140}) {
     TriangleMesh moved = soup;
     moved.positions.array() = scale * (soup.positions.array() + 1e6);
     const RayScene moved_scene(moved);

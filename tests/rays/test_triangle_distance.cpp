@@ -73,6 +73,22 @@ TEST_CASE("nearest_on_triangle: the foot of the perpendicular, a side or a corne
   CHECK(nearest_on_triangle(c, a, b, c).squared_distance == 0);
 }
 
+TEST_CASE("nearest_on_triangle: the same weights at every size whose squares are numbers") {
+  Random random;
+  for (int i = 0; i < 50; ++i) {
+    const Vector3 a = random.point(), b = random.point(), c = random.point();
+    const Vector3 p = (a + b + c) / 3 + 0.1 * random.point();
+    const TrianglePoint unit = nearest_on_triangle(p, a, b, c);
+    for (const int exponent : {-480, -300, -240, 240, 300, 480}) {
+      INFO("2^" << exponent);
+      const double size = std::ldexp(1.0, exponent);
+      const TrianglePoint found = nearest_on_triangle(size * p, size * a, size * b, size * c);
+      CHECK(found.barycentric == unit.barycentric);
+      CHECK(found.squared_distance == unit.squared_distance * size * size);
+    }
+  }
+}
+
 TEST_CASE("flat_normal: the same unit vector at every size that doubles have, 0 without area") {
   const Vector3 a(0.25, 0.5, 1), b(1, -0.5, 0.125), c(-0.75, 0.5, -1);
   const Vector3 normal = flat_normal(a, b, c);

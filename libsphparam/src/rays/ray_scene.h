@@ -67,8 +67,8 @@ class RayScene {
   /// away than 10⁹ times the mesh's size, any of those that no double can tell apart. `guess`: a
   /// face that may be near, which saves time and changes nothing. `near_enough`: the search ends
   /// with the first point found whose squared distance is no larger, which need not be the nearest.
-  /// Requires: no coordinate of the mesh or the point beyond 1e150. Cost: O(log #F) where the
-  /// surface is not equally far everywhere.
+  /// Requires: no coordinate of the mesh or the point beyond 1e150, and a mesh that is no smaller
+  /// than 1e-150. Cost: O(log #F) where the surface is not equally far everywhere.
   NearestPoint nearest(const Vector3& point, Face guess = -1, double near_enough = -1) const;
 
   /// Whether some point of the mesh is within `distance` of the point. Much cheaper than `nearest`

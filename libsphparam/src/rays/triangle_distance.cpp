@@ -1,9 +1,10 @@
-// p − a = s (b − a) + t (c − a) + h n: s and t by the normal n = (b − a) × (c − a); on a side, the
-// parameter of the foot of p, clamped to [0, 1].
+// p − a = s (b − a) + t (c − a) + h n: s and t by the normal n = (b − a) × (c − a), of any length;
+// on a side, the parameter of the foot of p, clamped to [0, 1].
 
 #include "rays/triangle_distance.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sphparam {
 
@@ -15,6 +16,15 @@ double clamped_foot(const Vector3& p, const Vector3& side) {
   const double along = p.dot(side), length = side.squaredNorm();
   if (!(along > 0)) return 0;
   return along < length ? along / length : 1;
+}
+
+/// Times a power of two where a product with another normal would be no number, or 0: that is a
+/// fourth power of lengths.
+Vector3 with_products(const Vector3& normal) {
+  constexpr double least = 0x1p-300, most = 0x1p300;
+  const double size = normal.cwiseAbs().maxCoeff();
+  if ((size > least && size < most) || !(size > 0)) return normal;
+  return std::ldexp(1.0, std::clamp(-std::ilogb(size), -1022, 1022)) * normal;
 }
 
 }  // namespace
@@ -30,8 +40,8 @@ TrianglePoint nearest_on_triangle(const Vector3& p, const Vector3& a, const Vect
   };
   consider({1 - ac_foot, 0, ac_foot}, (ap - ac_foot * ac).squaredNorm());
   consider({0, 1 - bc_foot, bc_foot}, (p - b - bc_foot * bc).squaredNorm());
-  const Vector3 normal = ab.cross(ac);
-  const double area = normal.squaredNorm();
+  const Vector3 cross = ab.cross(ac), normal = with_products(cross);
+  const double area = cross.dot(normal);
   const double s = ap.cross(ac).dot(normal), t = ab.cross(ap).dot(normal);
   if (s > 0 && t > 0 && s + t < area) {
     const double u = s / area, v = t / area;
