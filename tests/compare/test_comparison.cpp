@@ -107,6 +107,30 @@ TEST_CASE("compare_maps: a program names methods and adds maps of its own") {
   CHECK_THROWS_AS(compare_maps("ball", file, {}, {}, options), std::invalid_argument);
 }
 
+TEST_CASE("compare_maps: what cannot be is refused before any work") {
+  const MeshFile file = ball(1);
+  const auto refused = [&](const std::vector<std::string>& methods,
+                           const std::vector<NamedMap>& others, int size = 16) {
+    CompareOptions options{.pictures = false, .size = size};
+    options.progress = [](std::string_view stage, double) {
+      FAIL("work was begun: " << stage);
+      return false;
+    };
+    CHECK_THROWS_AS(compare_maps("ball", file, methods, others, options), std::invalid_argument);
+  };
+  const auto named = [&](const std::string& name) {
+    return NamedMap{.name = name, .map = {file.mesh.positions}};
+  };
+  refused({"progressive", "progressive"}, {});
+  refused({"progressive"}, {named("progressive")});
+  refused({"progressive"}, {named("peer"), named("peer")});
+  for (const char* name : {"", "a/b", "a#b", "50%", "my map"}) refused({}, {named(name)});
+  refused({"progressive"}, {{.name = "few", .map = {file.mesh.positions.topRows(5)}}});
+  for (const int size : {15, 0, -1, 4097}) refused({}, {named("peer")}, size);
+  const CompareOptions small{.size = 16};
+  CHECK(compare_maps("ball", file, {}, {named("Peer-1.5_b")}, small).size() == 4);
+}
+
 TEST_CASE("entries: each is told as it is there, the methods' first") {
   const MeshFile file = ball(1);
   std::vector<std::string> told;

@@ -166,6 +166,18 @@ TEST_CASE("match page: all pictures, tables and warnings are there, and texts ar
   CHECK(page == make_match_page(match, options));
 }
 
+TEST_CASE("match page: a size that cannot be is refused before any work") {
+  const Match match = match_of({ball(1, 0.5, "one.obj"), ball(1, 0.9, "two.obj")});
+  for (const int size : {-4, 0, 60, 66, 8196}) {
+    const MatchPageOptions options{
+        .viewer = false, .size = size, .progress = [](std::string_view, double) {
+          FAIL("work was begun");
+          return false;
+        }};
+    CHECK_THROWS_AS(make_match_page(match, options), std::invalid_argument);
+  }
+}
+
 TEST_CASE("match page: what was searched for is listed, with its confidence") {
   Match match = match_of({ball(2, 0.5, "one.obj"), ball(2, 0.9, "two.obj")});
   match.suggestions = {{{{1, 2}}, 2.5, 0.75, 0.625}};

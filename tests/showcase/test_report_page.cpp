@@ -261,6 +261,21 @@ TEST_CASE("make_report: a program gets the page of a mapped mesh, or of several 
   CHECK_THROWS_AS(make_report("ball", file, {}, options), std::invalid_argument);
 }
 
+TEST_CASE("make_report: a size or a map that cannot be is refused before any work") {
+  const MeshFile file = ball(1);
+  const SphereMap map{file.mesh.positions}, few{map.points.topRows(5)};
+  PageOptions options{.viewer = false, .progress = [](std::string_view stage, double) {
+                        FAIL("work was begun: " << stage);
+                        return false;
+                      }};
+  CHECK_THROWS_AS(make_report("ball", file, {{"good", map}, {"few", few}}, options),
+                  std::invalid_argument);
+  for (const int size : {-1, 0, 63, 8193}) {
+    options.size = size;
+    CHECK_THROWS_AS(make_report("ball", file, {{"good", map}}, options), std::invalid_argument);
+  }
+}
+
 TEST_CASE("page entries: maps of files are told apart, a mesh without a map is mapped now") {
   namespace fs = std::filesystem;
   const fs::path folder = fs::temp_directory_path() / ("sphparam_maps_" + std::to_string(getpid()));

@@ -1,7 +1,11 @@
+#include <set>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "compare/comparison.h"
+#include "option_domain.h"
+#include "sphere/required_rays.h"
 #include "sphparam/io/fillers.h"
 #include "sphparam/report/compare.h"
 
@@ -12,6 +16,29 @@ namespace {
 AnyMethod require_method(const std::string& name) {
   if (const std::optional<AnyMethod> method = method_named(name)) return *method;
   throw std::invalid_argument("no method " + name);
+}
+
+/// Can it be part of a file's name anywhere, and of an address on a page?
+bool is_plain(std::string_view name) {
+  constexpr std::string_view letters =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-";
+  return !name.empty() && name.find_first_not_of(letters) == std::string_view::npos;
+}
+
+/// Files are called by the names of the maps: two of one name would be one file.
+void require_names(const std::vector<std::string>& methods, const std::vector<NamedMap>& others) {
+  std::set<std::string> names;
+  const auto take = [&](const std::string& name) {
+    if (!names.insert(name).second)
+      throw std::invalid_argument("two maps to compare are called " + name);
+  };
+  for (const std::string& method : methods) take(method);
+  for (const NamedMap& other : others) {
+    if (!is_plain(other.name))
+      throw std::invalid_argument("a map to compare is called \"" + other.name +
+                                  "\": its name must be of letters, digits, dots, - and _");
+    take(other.name);
+  }
 }
 
 }  // namespace
@@ -56,6 +83,10 @@ FolderFiles compare_maps(const std::string& name, const MeshFile& file,
                          const std::vector<std::string>& methods,
                          const std::vector<NamedMap>& others, const CompareOptions& options) {
   if (methods.empty() && others.empty()) throw std::invalid_argument("there is nothing to compare");
+  require_between("size", options.size, 16, 4096);
+  require_names(methods, others);
+  for (const NamedMap& other : others)
+    require_rays("compare_maps", other.map, file.mesh.vertex_count());
   return comparison_files(name, file, make_entries(file, methods, others, options),
                           comparison_options(file, options));
 }

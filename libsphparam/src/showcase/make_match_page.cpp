@@ -4,6 +4,7 @@
 #include "embedded/report_page.css.h"
 #include "io/uri.h"
 #include "number_text.h"
+#include "option_domain.h"
 #include "report/plots.h"
 #include "report/svg.h"
 #include "showcase/heat_key.h"
@@ -52,6 +53,8 @@ class MatchReporter {
         options_(options),
         first_(stem_of(match.map.from().name())),
         second_(stem_of(match.map.to().name())),
+        numbers_of_first_(match.map.from().file()),
+        numbers_of_second_(match.map.to().file()),
         pictures_(match.map, firsts_of(options.landmarks), pair_look(match.map, options)),
         back_(measure_distortion(match.map.inverse(), options.threads)),
         surfaces_png_(png(pictures_.graticules())) {}
@@ -184,8 +187,8 @@ class MatchReporter {
   }
 
   std::pair<std::string, std::string> numbers(const LandmarkPair& pair) const {
-    const FileNumbers from(match_.map.from().file()), to(match_.map.to().file());
-    return {std::to_string(from.number(pair.from)), std::to_string(to.number(pair.to))};
+    return {std::to_string(numbers_of_first_.number(pair.from)),
+            std::to_string(numbers_of_second_.number(pair.to))};
   }
 
   PageTable landmark_table() const {
@@ -222,6 +225,7 @@ class MatchReporter {
   const Match& match_;
   const MatchPageOptions& options_;
   std::string first_, second_;
+  FileNumbers numbers_of_first_, numbers_of_second_;
   MatchPictures pictures_;
   Distortion back_;
   std::string surfaces_png_;  // both with the graticule
@@ -231,6 +235,8 @@ class MatchReporter {
 }  // namespace
 
 std::string make_match_page(const Match& match, const MatchPageOptions& options) {
+  require_between("size", options.size, 64, 8192);
+  if (options.size % 4 != 0) refuse_option("size", options.size, "a multiple of 4");
   return MatchReporter(match, options).html();
 }
 

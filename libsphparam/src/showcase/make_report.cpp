@@ -3,7 +3,9 @@
 
 #include "bake/make_scene.h"
 #include "io/attributes/appearance.h"
+#include "option_domain.h"
 #include "showcase/report_page.h"
+#include "sphere/required_rays.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/report/report_page.h"
@@ -32,6 +34,8 @@ ReportOptions report_options(const MeshFile& file, const PageOptions& options) {
 std::string make_report(const std::string& name, const MeshFile& file,
                         const std::vector<NamedMap>& maps, const PageOptions& options) {
   if (maps.empty()) throw std::invalid_argument("a report needs a map");
+  require_between("size", options.size, 64, 8192);
+  for (const NamedMap& map : maps) require_rays("make_report", map.map, file.mesh.vertex_count());
   std::vector<PageEntry> entries;
   for (const NamedMap& map : maps) entries.push_back(make_page_entry(map, file, options.threads));
   return report_page(name, file, entries, report_options(file, options));

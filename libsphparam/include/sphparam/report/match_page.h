@@ -26,9 +26,9 @@ struct MatchPageOptions {
 /// the other; both in the same colours where they correspond, with lines between points; both, and
 /// both spheres, with the same lines of longitude and latitude; the distortion between them as
 /// heat, histograms and figures, both ways; landmarks, or those that were found. Ensures: the page
-/// loads nothing from anywhere; the same bytes for any number of threads. Throws: as `make_morph`;
-/// ImageError; Cancelled. Cost: some 10 s, the most of it for
-/// pictures.
+/// loads nothing from anywhere; the same bytes for any number of threads. Throws:
+/// std::invalid_argument, before any work, for a size outside its domain; as `make_morph`;
+/// ImageError; Cancelled. Cost: some 10 s, the most of it for pictures.
 std::string make_match_page(const Match& match, const MatchPageOptions& options = {});
 
 }  // namespace sphparam

@@ -32,8 +32,8 @@ struct PageOptions {
 /// maps, the paper's polar charts, histograms, tables, provenance. Several maps stand side by side,
 /// their charts on the same scale. The mesh is shown in its own colours; with its textures, where
 /// its file has them. Requires: at least one map. Ensures: the page loads nothing from anywhere.
-/// Throws: std::invalid_argument where there is no map, or not a ray a vertex; ImageError;
-/// Cancelled. Cost: some seconds a map.
+/// Throws: std::invalid_argument, before any work, where there is no map, or not a ray a vertex,
+/// and for a size outside its domain; ImageError; Cancelled. Cost: some seconds a map.
 std::string make_report(const std::string& name, const MeshFile& file,
                         const std::vector<NamedMap>& maps, const PageOptions& options = {});
 
