@@ -101,6 +101,31 @@ TEST_CASE("polygons: concave polygons are tiled without folds") {
   check_tiles(reversed, triangulate(reversed, ring(42)));
 }
 
+TEST_CASE("polygons: long concave polygons are tiled too, where most corners are reflex") {
+  for (const int half : {8, 40, 120, 1000}) {  // of a C: an arc there and, inside, back
+    Points arc(2 * half, 3);
+    for (int i = 0; i < half; ++i) {
+      const double angle = 6.1 * i / (half - 1);
+      arc.row(i) << 10 * std::cos(angle), 10 * std::sin(angle), 0;
+      arc.row(2 * half - 1 - i) << 8 * std::cos(angle), 8 * std::sin(angle), 0;
+    }
+    const Triangulation cut = triangulate(arc, ring(2 * half));
+    CHECK(cut.overlapping == 0);
+    check_tiles(arc, cut);
+  }
+}
+
+TEST_CASE("polygons: triangles that overlap are told, of a polygon that crosses itself") {
+  Points crossed(5, 3);
+  crossed << 0, 0, 0, 4, 3, 0, 4, 0, 0, 0, 3, 0, -1, 1, 0;
+  const Triangulation cut = triangulate(crossed, ring(5));
+  CHECK(cut.overlapping == 1);
+  MeshFile file;
+  adopt_triangulation(file, cut);
+  REQUIRE(file.notes.size() == 1);
+  CHECK(file.notes[0].starts_with("1 face of more than four corners crosses itself"));
+}
+
 TEST_CASE("polygons: tiling does not depend on place, plane or scale") {
   const Points flat = star(6);
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(1, Vector3(1, 2, 3).normalized()).matrix();

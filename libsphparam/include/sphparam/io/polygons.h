@@ -52,6 +52,7 @@ struct Triangulation {
   std::vector<int> polygon;   // #T: which polygon; empty when triangle t is polygon t
   long split = 0;             // polygons that were not triangles
   long shortened = 0;         // polygons that named a vertex twice in a row, taken once
+  long overlapping = 0;       // polygons of more than four corners with triangles that overlap
   std::vector<int> doublets;  // vertices about which two polygons share two edges in a row
 
   std::int64_t corner_of(std::int64_t i) const { return corner.empty() ? i : corner[i]; }
@@ -62,14 +63,15 @@ struct Triangulation {
 ///
 /// Quads are cut along the shorter diagonal that leaves both triangles unfolded. Other polygons
 /// become the fan of their first corner where that fan does not fold in the polygon's best-fit
-/// plane, else their ears are clipped there; beyond 512 corners always the fan, as ears cost the
-/// square of the degree. No cut runs along an edge that the polygons or another cut have already,
-/// where there is a choice. Where two polygons share two edges in a row (about a vertex of valence
-/// two, a doublet) the triangle between these edges is cut off from both: the surface has it twice,
-/// and `inspect_mesh` says so; `repair_mesh` turns the other diagonal of one of them.
-/// Of a polygon that names a vertex twice in a row, as quads do that are triangles, the second
-/// corner is left out. What repeats a vertex even so, or would have fewer than three corners,
-/// becomes one triangle that repeats one, for `repair_mesh` to remove.
+/// plane, else their ears are clipped there; beyond 4096 corners always the fan, as ears cost the
+/// square of the degree. Triangles overlap where that fan folds, and where a polygon crosses
+/// itself, and such polygons are counted. No cut runs along an edge that the polygons or another
+/// cut have already, where there is a choice. Where two polygons share two edges in a row (about a
+/// vertex of valence two, a doublet) the triangle between these edges is cut off from both: the
+/// surface has it twice, and `inspect_mesh` says so; `repair_mesh` turns the other diagonal of one
+/// of them. Of a polygon that names a vertex twice in a row, as quads do that are triangles, the
+/// second corner is left out. What repeats a vertex even so, or would have fewer than three
+/// corners, becomes one triangle that repeats one, for `repair_mesh` to remove.
 /// Requires: indices within `positions`. Cost: O(corners), plus degree² for clipped polygons.
 Triangulation triangulate(const Points& positions, const Polygons& polygons);
 
@@ -83,7 +85,8 @@ std::vector<int> corners_in(const Triangles& triangles, const Polygons& polygons
 
 /// Puts the triangles into a mesh file: triangles, polygon count and, where a polygon was split,
 /// the face property `source_face`. Face properties, so far one value a polygon, are copied to
-/// every triangle of the polygon. Notes tell of shortened polygons and of doublets.
+/// every triangle of the polygon. Notes tell of shortened polygons, of those whose triangles
+/// overlap, and of doublets.
 void adopt_triangulation(MeshFile& file, Triangulation triangulation);
 
 }  // namespace sphparam

@@ -32,4 +32,7 @@ using PlanePoint = Eigen::Vector2d;
 void clip_ears(std::span<const int> polygon, std::vector<PlanePoint> plane, const EdgeSet& edges,
                std::vector<int>& triples);
 
+/// Do triangles of a polygon overlap: are their areas more than its own?
+bool overlap(const std::vector<PlanePoint>& plane, std::span<const int> triples);
+
 }  // namespace sphparam

@@ -10,6 +10,7 @@
 
 #include "io/polygons/doublets.h"
 #include "io/polygons/ear_clipping.h"
+#include "number_text.h"
 
 // A polygon is projected to the plane of its Newell normal n = Σ pᵢ × pᵢ₊₁, after a shift to its
 // first corner and a power-of-two scale, so that no coordinates overflow. Quads compare their two
@@ -20,7 +21,7 @@
 namespace sphparam {
 namespace {
 
-constexpr int max_clipped_degree = 512;
+constexpr int max_clipped_degree = 4096;
 
 // Half-edges are numbered by int, three to a triangle.
 constexpr std::int64_t most_triangles = std::numeric_limits<int>::max() / 3;
@@ -97,6 +98,9 @@ class Triangulator {
     return triples_;
   }
 
+  /// Polygons so far of which triangles overlap.
+  long overlapping() const { return overlapping_; }
+
  private:
   void insert_boundary(std::span<const int> polygon) {
     int previous = polygon.back();
@@ -152,12 +156,15 @@ class Triangulator {
     const Vector3 normal = newell_normal(local_);
     const int degree = static_cast<int>(polygon.size());
     const bool has_plane = normal.squaredNorm() > 0;
-    if (degree > max_clipped_degree || !has_plane || fan_is_good(polygon, normal)) {
+    if (!has_plane || fan_is_good(polygon, normal)) return cut_fan(polygon, 0);
+    const std::vector<PlanePoint> plane = project(local_, normal);
+    if (degree > max_clipped_degree) {
       cut_fan(polygon, 0);
     } else {
-      clip_ears(polygon, project(local_, normal), edges_, triples_);
+      clip_ears(polygon, plane, edges_, triples_);
       insert_triangles(polygon);
     }
+    overlapping_ += overlap(plane, triples_);
   }
 
   bool fan_is_good(std::span<const int> polygon, const Vector3& normal) const {
@@ -179,6 +186,7 @@ class Triangulator {
   const std::vector<int>& doublets_;
   std::vector<Vector3> local_;
   std::vector<int> triples_;
+  long overlapping_ = 0;
 };
 
 bool has_repeated_corner(std::span<const int> polygon) {
@@ -246,7 +254,17 @@ Triangulation cut(const Points& positions, const Polygons& polygons) {
     result.polygon.resize(indices.size() / 3, static_cast<int>(p));
   }
   result.triangles = as_triangles(indices);
+  result.overlapping = triangulator.overlapping();
   return result;
+}
+
+std::string overlapping_note(long count) {
+  return counted(count, "face") + " of more than four corners " +
+         (count == 1 ? "crosses itself" : "cross themselves") + ", or turn" +
+         (count == 1 ? "s" : "") + " inward with more than " + std::to_string(max_clipped_degree) +
+         " corners: triangles of " + (count == 1 ? "it" : "theirs") +
+         " overlap, and areas count double there; cut into triangles where it was made, the mesh "
+         "would not";
 }
 
 std::string shortened_note(long count) {
@@ -328,6 +346,8 @@ void adopt_triangulation(MeshFile& file, Triangulation triangulation) {
   file.polygons = triangulation.split;
   if (triangulation.split == 0) return;
   if (triangulation.shortened > 0) file.notes.push_back(shortened_note(triangulation.shortened));
+  if (triangulation.overlapping > 0)
+    file.notes.push_back(overlapping_note(triangulation.overlapping));
   if (!triangulation.doublets.empty()) file.notes.push_back(doublet_note(triangulation.doublets));
   for (Property& property : file.face_properties) {
     std::vector<double> spread;
