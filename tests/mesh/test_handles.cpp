@@ -8,6 +8,8 @@
 #include "mesh/handles/loop_basis.h"
 #include "mesh/handles/loop_side.h"
 #include "mesh/handles/short_loops.h"
+#include "mesh/handles/surface_cells.h"
+#include "mesh/repair_state.h"
 #include "sphparam/mesh/mesh_repair.h"
 #include "sphparam/mesh/topology.h"
 #include "support/joined.h"
@@ -313,6 +315,30 @@ TEST_CASE("handles: after holes are filled and sheets cut apart, in one go, and 
   RepairOptions without;
   without.handles = false;
   CHECK(repair_mesh(mesh, without).inspection.genus > 0);
+}
+
+TEST_CASE("handles: faces that all run across the whole box are found by cells, in little memory") {
+  // Strips from corner to corner beside each other: each is in every cell of its box.
+  constexpr int strips = 200000;
+  const Vector3 up(0.7, -0.7, 0);
+  TriangleMesh mesh{Points(3 * strips, 3), Triangles(strips, 3)};
+  for (int i = 0; i < strips; ++i) {
+    const Vector3 beside = 1e-3 * i / strips * up;
+    mesh.positions.row(3 * i) = Vector3(-1, -1, -1) + beside;
+    mesh.positions.row(3 * i + 1) = Vector3(1, 1, 1) + beside;
+    mesh.positions.row(3 * i + 2) = Vector3(1, 1, 1) + beside + 1e-4 / strips * up;
+    mesh.triangles.row(i) << 3 * i, 3 * i + 1, 3 * i + 2;
+  }
+  const RepairState state(mesh);
+  const SurfaceCells cells(state);
+  // Across all of them, and beside them.
+  const auto across = [&](const Vector3& middle) {
+    const Vector3 aside(0.1, 0.1, -0.2);
+    return cells.crossings(
+        {middle - 0.1 * up - aside, middle + 0.1 * up - aside, Vector3(middle + 2 * aside)});
+  };
+  CHECK(across({0.1, 0.1, 0.1}) == strips);
+  CHECK(across({0.1, 0.1, -0.5}) == 0);
 }
 
 TEST_CASE("handles: a crumpled one without a loop of the kind asked for is cut along the other") {

@@ -30,7 +30,7 @@ class Cap {
     long least = -1;
     std::vector<Vector3> best;
     for (const double share : bends) {
-      for (size_t i = 0; i < places_.size(); ++i) places_[i] = flat[i] + share * depth_[i] * step_;
+      for (size_t i = 0; i < places_.size(); ++i) places_[i] = flat[i] + share * step_;
       const long crossings = count(surface);
       if (least >= 0 && crossings >= least) continue;
       least = crossings;
@@ -51,16 +51,12 @@ class Cap {
 
   void list_neighbours() {
     neighbours_.resize(at(state_.vertex_count() - first_vertex_));
-    depth_.assign(neighbours_.size(), 1);
     for (Face f = first_face_; f < state_.face_count(); ++f) {
       for (size_t k = 0; k < 3; ++k) {
         const Vertex v = state_.faces[at(f)][k], next = state_.faces[at(f)][(k + 1) % 3];
-        if (!is_inner(v)) continue;
-        neighbours_[at(v - first_vertex_)].push_back(next);
-        if (!is_inner(next)) depth_[at(v - first_vertex_)] = 0.6;  // beside the rim
+        if (is_inner(v)) neighbours_[at(v - first_vertex_)].push_back(next);
       }
     }
-    if (places_.size() < 2) std::fill(depth_.begin(), depth_.end(), 1);
     for (Vertex v = first_vertex_; v < state_.vertex_count(); ++v) {
       places_.push_back(state_.shape[at(v)]);
     }
@@ -111,7 +107,6 @@ class Cap {
   const Face first_face_;
   std::vector<std::vector<Vertex>> neighbours_;  // of inner vertices
   std::vector<Vector3> places_;                  // theirs
-  std::vector<double> depth_;                    // how far they bend, of a step
   Vector3 step_ = Vector3::Zero();
 };
 

@@ -1,14 +1,18 @@
 #include "mesh/handles/surface_cells.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 
 // The unit box is cut into as many cells as there are faces, within limits; a face is in all cells
-// that its box touches. Two triangles cross where a side of one passes through the other.
+// that its box touches. Cells are larger where that would be too many, as of long faces that lie
+// across the axes. Two triangles cross where a side of one passes through the other.
 
 namespace sphparam {
 namespace {
 
-constexpr int most_cells = 96;  // a side
+constexpr int most_cells = 96;             // a side
+constexpr std::int64_t most_entries = 64;  // of a face in cells, on average
 
 /// The cube root of a count.
 int side_of(long count) {
@@ -45,6 +49,9 @@ bool touch(const SurfaceCells::Triangle& s, const SurfaceCells::Triangle& t) {
 
 SurfaceCells::SurfaceCells(const RepairState& state)
     : state_(state), cells_(side_of(state.face_count())) {
+  const std::int64_t enough =
+      std::min<std::int64_t>(most_entries * state.face_count(), std::numeric_limits<int>::max());
+  while (cells_ > 1 && entries() > enough) cells_ = (cells_ + 1) / 2;
   const auto count =
       static_cast<size_t>(cells_) * static_cast<size_t>(cells_) * static_cast<size_t>(cells_);
   first_.assign(count + 1, 0);
@@ -71,6 +78,20 @@ std::array<int, 3> SurfaceCells::cell_of(const Vector3& place) const {
     cell[static_cast<size_t>(k)] = std::clamp(static_cast<int>(along), 0, cells_ - 1);
   }
   return cell;
+}
+
+/// Of all faces in cells of this size.
+std::int64_t SurfaceCells::entries() const {
+  std::int64_t sum = 0;
+  for (Face f = 0; f < state_.face_count(); ++f) {
+    const Triangle t = triangle(f);
+    const auto first = cell_of(t[0].cwiseMin(t[1]).cwiseMin(t[2])),
+               last = cell_of(t[0].cwiseMax(t[1]).cwiseMax(t[2]));
+    std::int64_t cells = 1;
+    for (size_t k = 0; k < 3; ++k) cells *= last[k] - first[k] + 1;
+    sum += cells;
+  }
+  return sum;
 }
 
 template <class Visit>

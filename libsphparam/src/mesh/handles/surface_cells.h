@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "mesh/repair_state.h"
@@ -11,7 +12,7 @@ namespace sphparam {
 class SurfaceCells {
  public:
   /// `state` outlives this; its faces may get other names of vertices at the same places, and more
-  /// may come, which are not looked at. Cost: linear.
+  /// may come, which are not looked at. Cost: linear; 64 numbers a face at most.
   explicit SurfaceCells(const RepairState& state);
 
   using Triangle = std::array<Vector3, 3>;  // places in the unit box
@@ -23,6 +24,7 @@ class SurfaceCells {
  private:
   Triangle triangle(Face f) const;
   std::array<int, 3> cell_of(const Vector3& place) const;
+  std::int64_t entries() const;
   template <class Visit>
   void for_each_cell(const Triangle& triangle, const Visit& visit) const;
 
