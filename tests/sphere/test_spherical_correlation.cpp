@@ -162,6 +162,8 @@ TEST_CASE("spherical_correlation: the same bits for any number of threads, nonse
   CHECK_THROWS_AS(turns_by_correlation(from, to.leftCols(1)), std::invalid_argument);
   CHECK_THROWS_AS(turns_by_correlation(from, to, 0), std::invalid_argument);
   CHECK_THROWS_AS(turns_by_correlation(from.topRows(1), to.topRows(1)), std::invalid_argument);
+  CHECK_THROWS_WITH(turns_by_correlation(from.topRows(8), to.topRows(8)),
+                    "spherical correlation: 8 coefficients are no (L + 1)² of a degree L ≥ 1");
   CHECK_THROWS_WITH(turns_by_correlation(Functions::Zero(16, 1), random_functions(3, 1, 1)),
                     Catch::Contains("constant"));
 }

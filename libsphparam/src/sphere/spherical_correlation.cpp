@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 #include <stdexcept>
+#include <string>
 
 #include "elementary.h"
 #include "sphere/harmonic_turns.h"
@@ -275,8 +276,10 @@ void require_alike(const Functions& from, const Functions& to, int most) {
   if (from.rows() != to.rows() || from.cols() != to.cols() || from.cols() == 0)
     throw std::invalid_argument(
         "spherical correlation: not as many functions, or coefficients, in both");
-  if (from.rows() < 4)
-    throw std::invalid_argument("spherical correlation: a degree of 1 is needed");
+  const Eigen::Index side = degree_of(from) + 1;
+  if (side < 2 || side * side != from.rows())
+    throw std::invalid_argument("spherical correlation: " + std::to_string(from.rows()) +
+                                " coefficients are no (L + 1)² of a degree L ≥ 1");
   if (most < 1) throw std::invalid_argument("spherical correlation: most is less than 1");
 }
 
