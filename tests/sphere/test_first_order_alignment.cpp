@@ -147,6 +147,21 @@ TEST_CASE("first_order_alignment: what is flat along an axis has no skewness the
   CHECK(first_order_alignment(flat).skewness.norm() < 1e-12);
 }
 
+TEST_CASE("first_order_alignment: the size of the surface decides nothing") {
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    const Functions c = bumpy(seed), other = 3 * lying(bumpy(seed + 1));
+    const FirstOrderAlignment skewed = first_order_alignment(c),
+                              flipped = first_order_alignment(c, &other);
+    for (const double size : {0x1p-400, 0x1p400}) {  // whose cubes are no numbers
+      const Functions sized = size * c, template_sized = size * other;
+      const FirstOrderAlignment found = first_order_alignment(sized);
+      CHECK((found.skewness - skewed.skewness).norm() < 1e-12);
+      CHECK((found.object - skewed.object).norm() < 1e-12);
+      CHECK((first_order_alignment(sized, &template_sized).object - flipped.object).norm() < 1e-12);
+    }
+  }
+}
+
 TEST_CASE("first_order_alignment: what is not decided is told") {
   const auto diagonal = [](double a, double b, double c) {
     Functions result = Functions::Zero(9, 3);

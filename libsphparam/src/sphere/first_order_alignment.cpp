@@ -79,28 +79,29 @@ Functions flipped(Functions c, int axis) {
   return c;
 }
 
-double cube_root(double x) { return elementary::pow(x, 1.0 / 3); }
+/// The cube root of the volume of a box, which itself may be no number; 0 of a flat one.
+double mean_length(const Vector3& sides) {
+  const double longest = sides.maxCoeff();
+  return longest > 0 ? longest * elementary::pow((sides / longest).prod(), 1.0 / 3) : 0;
+}
 
 double distance(const Functions& a, const Functions& b) {
   const Eigen::Index rows = std::min(a.rows(), b.rows()) - 1;
   return (a.middleRows(1, rows) - b.middleRows(1, rows)).norm();
 }
 
-/// ∫x³ / (∫x²)^{3/2} · √4π of each coordinate; a grid of 3/2 the degree integrates it exactly.
-Vector3 skewness_of(const Functions& c, int threads) {
+/// ∫x³ / (∫x²)^{3/2} · √4π of each coordinate; a grid of 3/2 the degree integrates it exactly. Of
+/// coordinates divided by √∫x², whose cubes are numbers at any size of the surface.
+Vector3 skewness_of(Functions c, int threads) {
   const int degree = static_cast<int>(std::lround(std::sqrt(double(c.rows())))) - 1;
   const QuadratureGrid grid =
       quadrature_grid(std::min(greatest_harmonic_degree, (3 * degree + 1) / 2));
-  const Functions x = synthesise(c, grid.directions, threads);
-  Vector3 result;
   for (int k = 0; k < 3; ++k) {
-    const double variance = c.col(k).squaredNorm();
-    const double cubes = grid.weights.dot(x.col(k).array().cube().matrix());
-    result[k] = variance > 0
-                    ? cubes / (variance * std::sqrt(variance)) * std::sqrt(4 * std::numbers::pi)
-                    : 0;
+    const double size = c.col(k).stableNorm();
+    if (size > 0) c.col(k) /= size;
   }
-  return result;
+  const Functions x = synthesise(c, grid.directions, threads);
+  return x.array().cube().matrix().transpose() * grid.weights * std::sqrt(4 * std::numbers::pi);
 }
 
 /// Axes by |skewness|, the greatest first.
@@ -142,12 +143,14 @@ Functions normalised(const Functions& c) {
         "the coefficients whose flips are to be taken are not aligned: their sphere does not lie "
         "along the axes of their first-order ellipsoid");
   unit.leftCols<2>() *= -1;
-  return c * unit / cube_root(lengths.prod());
+  return c * unit / mean_length(lengths);
 }
 
 int flip_by_template(const Functions& c, const Functions& flips) {
   const Functions wanted = normalised(positions_of(flips));
-  const Functions scaled = c / cube_root(std::max(first_order(c).colwise().norm().prod(), 1e-300));
+  const Vector3 lengths = first_order(c).colwise().norm();
+  const double mean = mean_length(lengths);
+  const Functions scaled = c / (mean > 0 ? mean : std::max(lengths.maxCoeff(), 1e-300));
   int best = identity;
   for (int axis = 2; axis >= 0; --axis)
     if (distance(flipped(scaled, axis), wanted) < distance(flipped(scaled, best), wanted))
