@@ -106,7 +106,7 @@ void EdgeWeights::clamp_terms(std::vector<double>& terms, double median) {
   const double lowest = lowest_term * median, highest = highest_term * median;
   for (double& term : terms) {
     if (term >= lowest && term <= highest) continue;
-    // 0/0 is the edge of zero length in a face of zero area: its ends belong together.
+    // ∞ is the edge of zero length, or a straight angle: its ends belong together.
     term = term < lowest ? lowest : highest;
     ++clamped_;
   }
