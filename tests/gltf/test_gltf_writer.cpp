@@ -117,6 +117,31 @@ TEST_CASE("gltf_writer: materials after the first are variants, each of its own 
   CHECK(mappings[1]["variants"] == json::array({1}));
 }
 
+TEST_CASE("gltf_writer: what a mesh does not have is not written, and what is there is read") {
+  Asset asset = Charted({}, 2).asset({.morph = Morph::Sphere});
+  asset.levels[0].normals.resize(0, 0);
+  asset.levels[0].targets[0].normals.resize(0, 0);
+  asset.levels[0].texcoords.clear();
+  asset.materials.clear();
+  for (const bool quantise : {false, true}) {
+    const GltfOptions options{.quantise = quantise};
+    const std::string glb = glb_bytes(asset, options);
+    const json primitive = json_of(glb)["meshes"][0]["primitives"][0];
+    CHECK(primitive["attributes"].size() == 1);
+    CHECK(primitive["targets"][0].size() == 1);
+    CHECK_FALSE(primitive.contains("material"));
+    check_written(glb, "bare.glb", asset, options);
+  }
+}
+
+TEST_CASE("gltf_writer: an asset without a level, or a level without triangles, is refused") {
+  Asset asset = Charted({}, 1).asset();
+  asset.levels.push_back({});
+  CHECK_THROWS_AS(glb_bytes(asset), std::invalid_argument);
+  asset.levels.clear();
+  CHECK_THROWS_AS(glb_bytes(asset), std::invalid_argument);
+}
+
 TEST_CASE("gltf_writer: the animation shows one target after the other and ends as it began") {
   const Asset asset = Charted().asset({.morph = Morph::Flat});
   const json gltf = json_of(glb_bytes(asset));

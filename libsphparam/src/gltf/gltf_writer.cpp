@@ -1,5 +1,6 @@
 #include "sphparam/gltf/gltf_writer.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -219,12 +220,11 @@ class Builder {
         add_accessor(options_.quantise ? pack_quantised(surface.positions, quantisation)
                                        : pack_floats(surface.positions, Bounds::Store),
                      ViewUse::Vertices);
-    attributes["NORMAL"] = add_vectors(surface.normals);
+    if (surface.normals.size() > 0) attributes["NORMAL"] = add_vectors(surface.normals);
     if (surface.tangents.size() > 0) attributes["TANGENT"] = add_vectors(surface.tangents);
     for (std::size_t i = 0; i < surface.texcoords.size(); ++i) {
       const FloatRows& uv = surface.texcoords[i];
-      // Normalised integers end at 1, so that what wraps beyond stays float.
-      const bool fits = uv.minCoeff() >= 0 && uv.maxCoeff() <= 1;
+      const bool fits = fits_integers(uv);
       attributes["TEXCOORD_" + std::to_string(i)] = add_accessor(
           options_.quantise && fits ? pack_unsigned(uv) : pack_floats(uv), ViewUse::Vertices);
     }
@@ -240,8 +240,9 @@ class Builder {
     for (const MorphTarget& target : surface.targets) {
       const FloatRows positions = target.positions / static_cast<float>(scale);
       Json entry{
-          {"POSITION", add_accessor(pack_floats(positions, Bounds::Store), ViewUse::Vertices)},
-          {"NORMAL", add_accessor(pack_floats(target.normals), ViewUse::Vertices)}};
+          {"POSITION", add_accessor(pack_floats(positions, Bounds::Store), ViewUse::Vertices)}};
+      if (target.normals.size() > 0)
+        entry["NORMAL"] = add_accessor(pack_floats(target.normals), ViewUse::Vertices);
       if (target.tangents.size() > 0)
         entry["TANGENT"] = add_accessor(pack_floats(target.tangents), ViewUse::Vertices);
       targets.push_back(std::move(entry));
@@ -257,8 +258,8 @@ class Builder {
     const Quantisation quantisation = numbers_of_positions(surface);
     Json primitive{{"attributes", attributes_of(surface, quantisation)},
                    {"indices", add_accessor(pack_indices(surface.indices, surface.vertex_count()),
-                                            ViewUse::Indices)},
-                   {"material", first_material_}};
+                                            ViewUse::Indices)}};
+    if (!asset_.materials.empty()) primitive["material"] = first_material_;
     if (!surface.targets.empty()) primitive["targets"] = targets_of(surface, quantisation.scale);
     if (asset_.materials.size() > 1) {
       Json mappings = Json::array();
@@ -273,10 +274,12 @@ class Builder {
         mesh["extras"]["targetNames"].push_back(target.name);
     }
     Json node{{"name", asset_.name}, {"mesh", lists_.meshes.size()}};
+    const Eigen::RowVector3d translation = surface.origin + quantisation.offset;
+    const double scale = quantisation.scale;
+    if (options_.quantise || !translation.isZero(0))
+      node["translation"] = {translation[0], translation[1], translation[2]};
     if (options_.quantise) {
       use("KHR_mesh_quantization", true);
-      const auto& [offset, scale] = quantisation;
-      node["translation"] = {offset[0], offset[1], offset[2]};
       node["scale"] = {scale, scale, scale};
     }
     lists_.meshes.push_back(std::move(mesh));
@@ -423,10 +426,17 @@ class Builder {
   GltfFiles files_;
 };
 
+void require_triangles(const Asset& asset) {
+  const auto is_empty = [](const Surface& level) { return level.indices.empty(); };
+  if (asset.levels.empty() || std::ranges::any_of(asset.levels, is_empty))
+    throw std::invalid_argument("an asset needs a level, and each of its levels triangles");
+}
+
 }  // namespace
 
 GltfFiles write_gltf(const Asset& asset, const GltfOptions& options) {
   require_one_of("container", options.container, GltfContainer::Embedded);
+  require_triangles(asset);
   return Builder(asset, options).build();
 }
 

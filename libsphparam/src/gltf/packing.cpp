@@ -53,6 +53,10 @@ void store_bounds(PackedRows& packed, const Matrix& rows) {
 
 }  // namespace
 
+bool fits_integers(const FloatRows& uv) {
+  return uv.size() == 0 || (uv.minCoeff() >= 0 && uv.maxCoeff() <= 1);
+}
+
 std::uint16_t to_unsigned16(double value) {
   return static_cast<std::uint16_t>(
       std::clamp(std::round(value * most_unsigned), 0.0, most_unsigned));

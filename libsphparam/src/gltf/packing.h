@@ -36,6 +36,10 @@ Quantisation quantisation_of(const FloatRows& positions);
 /// Positions as 16-bit integers with exact bounds.
 PackedRows pack_quantised(const FloatRows& positions, const Quantisation& quantisation);
 
+/// Whether `pack_unsigned` can have these: normalised integers end at 1, so that (u, v) that wrap
+/// beyond stay floats.
+bool fits_integers(const FloatRows& uv);
+
 /// What pack_unsigned makes of a number: q of q / 65,535.
 std::uint16_t to_unsigned16(double value);
 

@@ -17,7 +17,7 @@ ChartPoint quantised(const ChartPoint& point) {
 long folds_by_quantising(const Surface& surface) {
   if (surface.texcoords.empty() || surface.texcoords.front().rows() == 0) return 0;
   const FloatRows& uv = surface.texcoords.front();
-  if (uv.minCoeff() < 0 || uv.maxCoeff() > 1) return 0;
+  if (!fits_integers(uv)) return 0;
   long folds = 0;
   for (std::size_t i = 0; i + 2 < surface.indices.size(); i += 3) {
     const auto point = [&](std::size_t k) {

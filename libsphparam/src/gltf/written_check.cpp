@@ -42,7 +42,7 @@ void compare_positions(const MeshFile& file, const Surface& surface, bool quanti
   // Half a step, and the rounding of the node's transform.
   constexpr double share_of_step = 0.5 + 1e-6;
   const double tolerance = quantised ? share_of_step * quantisation_of(surface.positions).scale : 0;
-  const Points stored = surface.positions.cast<double>();
+  const Points stored = surface.positions.cast<double>().rowwise() + surface.origin;
   const double size = stored.cwiseAbs().maxCoeff();
   const double rounding = quantised ? 4 * std::numeric_limits<double>::epsilon() * size : 0;
   if ((file.mesh.positions - stored).cwiseAbs().maxCoeff() > tolerance + rounding)
@@ -51,8 +51,9 @@ void compare_positions(const MeshFile& file, const Surface& surface, bool quanti
 
 void compare_uv(const MeshFile& file, const Surface& surface, bool quantised,
                 const std::string& name) {
+  if (surface.texcoords.empty()) return;
   const FloatRows& uv = surface.texcoords.front();
-  const bool sixteen_bits = quantised && uv.minCoeff() >= 0 && uv.maxCoeff() <= 1;
+  const bool sixteen_bits = quantised && fits_integers(uv);
   const Property* s = file.find_vertex_property("s");
   const Property* t = file.find_vertex_property("t");
   if (!s || !t) fail(name, "no texture coordinates");

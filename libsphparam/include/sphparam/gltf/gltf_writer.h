@@ -37,11 +37,12 @@ using GltfFiles = std::vector<std::pair<std::string, std::string>>;
 /// Levels after the first hang on the first one's node by MSFT_lod; materials after the first are
 /// variants (KHR_materials_variants), each named by its material. Morph targets get an animation
 /// that shows one after the other. Textures repeat in u and are clamped in v.
-/// Requires: finite numbers, unit normals and tangents; indices in range; levels share materials.
+/// Requires: a level, each with a triangle; finite numbers, unit normals and tangents; indices in
+/// range; levels share materials.
 /// Ensures: min and max are exact for the numbers stored; 16-bit indices for up to 65,535 vertices;
 /// the same bytes for the same asset.
 /// Throws: std::length_error where a .glb would be beyond 4 GiB; std::invalid_argument for a
-/// container that there is not.
+/// container that there is not, and for an asset without levels or triangles.
 /// Source: glTF 2.0 and the extensions named, as the Khronos validator reads them.
 GltfFiles write_gltf(const Asset& asset, const GltfOptions& options = {});
 
