@@ -59,6 +59,20 @@ TEST_CASE("export domain: a morph starts from the mesh, and from nothing else") 
   }
 }
 
+TEST_CASE("export domain: what cannot be of this mesh, or together, is refused before any work") {
+  using Catch::Contains;
+  const auto keep_and_refine = [](ExportOptions& options) {
+    options.keep_topology = true;
+    options.refine_poles = 2;
+  };
+  CHECK_THAT(complaint(keep_and_refine), Contains("refined poles need new vertices"));
+  CHECK_THAT(complaint([](auto& o) { o.source_uv = true; }), Contains("no texture coordinates"));
+  CHECK_THAT(complaint([](auto& o) {
+               o.others = {{"few", Points::Zero(3, 3), Points::Zero(3, 3)}};
+             }),
+             Contains("the shape few needs a position and a normal for each vertex"));
+}
+
 TEST_CASE("export domain: its ends are in it") {
   CHECK(complaint([](auto& o) { o.look.image_width = 16; }).empty());
   CHECK(complaint([](auto& o) { o.look.webp_quality = 1; }).empty());

@@ -64,6 +64,13 @@ bool is_obj(const std::string& path) {
   return extension == ".obj";
 }
 
+/// The one that texts name.
+const AssetImage& shown_image(const Look& look) {
+  if (look.images.empty() || look.materials.empty())
+    throw std::invalid_argument("a textured mesh needs a look with an image, as of make_look");
+  return look.images.front();
+}
+
 /// What a look has besides the image of its colours: texts have no words for it.
 std::vector<std::string> beyond_texts(const Look& look) {
   const Material& seen = look.materials.front();
@@ -176,7 +183,7 @@ void write_asset(const std::string& path, const Asset& asset, const GltfOptions&
 std::vector<std::string> textured_files(const std::string& path, const Look& look) {
   std::vector<std::string> names = {path};
   if (is_obj(path)) names.push_back(beside(path, stem_of_path(path) + ".mtl"));
-  names.push_back(image_file(path, look.images.front()));
+  names.push_back(image_file(path, shown_image(look)));
   return names;
 }
 
@@ -184,6 +191,7 @@ TexturedFiles add_textured_mesh(PendingFiles& files, const std::string& path,
                                 const MappedMesh& mapped, const Look& look,
                                 const ExportOptions& options) {
   const bool obj = is_obj(path);
+  const AssetImage& image = shown_image(look);
   require_export_domain(options);
   const ExportChart chart = chart_of_level(mapped, options);
   const FillerMarks fillers = fillers_of_chart(chart.chart, mapped.fillers());
@@ -194,7 +202,6 @@ TexturedFiles add_textured_mesh(PendingFiles& files, const std::string& path,
   const BytesCheck check = [&](std::string_view on_disk) {
     result.chart.stored = certify_written(on_disk, path, chart, fillers, options.threads);
   };
-  const AssetImage& image = look.images.front();
   const std::string image_path = image_file(path, image);
   const std::string image_name = fs::path(image_path).filename().string();
   Adder adder(files);

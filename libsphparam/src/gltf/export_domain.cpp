@@ -33,6 +33,8 @@ void require_export_domain(const ExportOptions& options) {
   require_one_of("morph", options.morph, Morph::Flat);
   if (options.morph != Morph::None && options.shape != ShapeKind::Mesh)
     throw std::invalid_argument("morph starts from the mesh: shape must be ShapeKind::Mesh");
+  if (options.keep_topology && options.refine_poles > 1)
+    throw std::invalid_argument("refined poles need new vertices, which keep_topology forbids");
 }
 
 }  // namespace sphparam

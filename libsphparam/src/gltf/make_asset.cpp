@@ -1,4 +1,3 @@
-#include <filesystem>
 #include <stdexcept>
 
 #include "bake/shared_sphere.h"
@@ -7,8 +6,10 @@
 #include "gltf/export_names.h"
 #include "gltf/fillers_left_out.h"
 #include "gltf/level.h"
+#include "io/attributes/appearance.h"
 #include "number_text.h"
 #include "sphparam/gltf/export.h"
+#include "sphparam/io/paths.h"
 #include "sphparam/io/upright_frame.h"
 
 namespace sphparam {
@@ -35,7 +36,7 @@ GeometryOptions geometry_options(const ExportOptions& options, const MappedMesh&
 
 std::string name_of_asset(const MappedMesh& mapped, const ExportOptions& options) {
   if (!options.name.empty()) return options.name;
-  return std::filesystem::path(mapped.name()).filename().stem().string();
+  return stem_of(mapped.name());
 }
 
 void require_a_row_a_vertex(const std::vector<OtherShape>& shapes, const MappedMesh& mapped) {
@@ -45,6 +46,14 @@ void require_a_row_a_vertex(const std::vector<OtherShape>& shapes, const MappedM
     throw std::invalid_argument("the shape " + shape.name +
                                 " needs a position and a normal for each vertex of the mesh");
   }
+}
+
+/// Before any work.
+void require_makeable(const MappedMesh& mapped, const ExportOptions& options) {
+  require_export_domain(options);
+  require_a_row_a_vertex(options.others, mapped);
+  if (options.source_uv && !has_texcoords(mapped.file()))
+    throw std::invalid_argument("the mesh has no texture coordinates of its own");
 }
 
 double mean_edge_of_diagonal(const TriangleMesh& mesh) {
@@ -115,8 +124,7 @@ void add_level(Asset& asset, const MappedMesh& mapped, const std::string& name, 
 }  // namespace
 
 Asset make_asset(const MappedMesh& mapped, const Look& look, const ExportOptions& options) {
-  require_export_domain(options);
-  require_a_row_a_vertex(options.others, mapped);
+  require_makeable(mapped, options);
   Asset asset = without_levels(mapped, look, options);
   const std::string name = source_name(mapped, options);
   for (const MappedMesh& coarse : options.coarser)
@@ -133,7 +141,7 @@ Asset make_asset(const MappedMesh& mapped, const Look& look, const ExportOptions
 }
 
 Asset make_asset(const MappedMesh& mapped, const ExportOptions& options) {
-  require_export_domain(options);
+  require_makeable(mapped, options);
   return make_asset(mapped, make_look(mapped, options), options);
 }
 

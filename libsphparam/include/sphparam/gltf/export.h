@@ -195,7 +195,7 @@ std::vector<std::string> textured_files(const std::string& path, const Look& loo
 /// threads, progress; `shape`: the mesh or its sphere.
 /// Throws: WriteError; UnmeasurableMesh for positions that are no finite numbers;
 /// std::runtime_error where what was read back differs; NotCertifiedError and
-/// std::invalid_argument as `make_asset`, and for other endings.
+/// std::invalid_argument as `make_asset`, for a look without an image, and for other endings.
 TexturedFiles add_textured_mesh(PendingFiles& files, const std::string& path,
                                 const MappedMesh& mapped, const Look& look,
                                 const ExportOptions& options = {});
