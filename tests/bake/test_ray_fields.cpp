@@ -132,6 +132,23 @@ TEST_CASE("ray fields: on a convex mesh the bent normal is the smooth normal") {
   }
 }
 
+TEST_CASE("ray fields: at hard edges rays are about the normals of the corners") {
+  const Subject round = ball(1);  // as vertices have it; the file says that every face is flat
+  const auto flat = std::make_shared<CornerNormals>(3 * round.mesh.face_count(), 3);
+  for (Face f = 0; f < round.mesh.face_count(); ++f) {
+    const auto corner = [&](int k) { return round.mesh.position(round.mesh.triangles(f, k)); };
+    const Vector3 normal = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
+    for (int k = 0; k < 3; ++k) flat->row(3 * f + k) = normal;
+  }
+  const auto bent =
+      values_of(round.field(bent_normal_field, {.rays = 16, .reach = 1, .corner_normals = flat}),
+                {{{3, Vector3::UnitX()}, 5}, {{7, Vector3(0.1, 0.7, 0.2)}, 6}});
+  for (int c = 0; c < 3; ++c) {
+    CHECK(bent[static_cast<size_t>(c)] == Approx((*flat)(9, c)).margin(1e-6));
+    CHECK(bent[static_cast<size_t>(3 + c)] == Approx((*flat)(21, c)).margin(1e-6));
+  }
+}
+
 TEST_CASE("ray fields: at the bottom of a cup the sky is what its mouth shows of it") {
   Vertex bottom = 0;
   const Subject deep = cup(64, 0.1, &bottom);

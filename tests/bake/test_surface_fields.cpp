@@ -190,6 +190,22 @@ TEST_CASE("height field: distance from the origin, above another mesh, along its
   CHECK_THROWS_AS(height_field(scene, "upwards"), FieldError);
 }
 
+TEST_CASE("height field: above a mesh with hard edges, along the normals of its wedges") {
+  TriangleMesh ball = icosphere(1), base = icosphere(1);
+  BakeScene scene = scene_of(ball, &base);
+  SphericalChart& chart = scene.target.chart;
+  // Every wedge its own; all of them look up.
+  chart.wedges.resize(chart.triangles.rows(), 3);
+  for (Face f = 0; f < chart.wedges.rows(); ++f) chart.wedges.row(f) << 3 * f, 3 * f + 1, 3 * f + 2;
+  scene.target.wedge_normals = Vector3::UnitZ().transpose().replicate(3 * chart.wedges.rows(), 1);
+  const SurfaceSample sample = {
+      .point = {0, Vector3::UnitX()}, .seed = 0, .place = {0, Vector3::UnitY()}};
+  float value = 0;
+  height_field(scene, "").evaluate({&sample, 1}, &value);
+  const double from = scene.target.positions(chart.triangles(0, 1), 2);
+  CHECK(value == Approx(ball.positions(ball.triangles(0, 0), 2) - from).margin(1e-6));
+}
+
 TEST_CASE("as_heat: the colours of the scale, with the same range and a legend of it") {
   BakeScene scene = scene_of(ellipsoid(3, 1, 1, 0.3));
   const std::vector<float> numbers = at_middles(area_field(scene, ""), scene);

@@ -29,8 +29,11 @@ SurfaceField height_above(const TriangleMesh& mesh, const BakeTarget& target) {
       .about = "height above the mesh that is baked for, along its normals, in units of the mesh"};
   field.evaluate = [&mesh, &target](std::span<const SurfaceSample> samples, float* values) {
     const Triangles& base = target.chart.triangles;
+    // At hard edges each wedge has a normal of its own.
+    const Points& normals = target.wedge_normals ? *target.wedge_normals : target.normals;
+    const Triangles& lit = target.wedge_normals ? target.chart.wedges : base;
     for (const SurfaceSample& sample : samples) {
-      const Vector3 normal = interpolate(target.normals, base, sample.place).normalized();
+      const Vector3 normal = interpolate(normals, lit, sample.place).normalized();
       const Vector3 from = interpolate(target.positions, base, sample.place);
       const Vector3 to = interpolate(mesh.positions, mesh.triangles, sample.point);
       *values++ = static_cast<float>((to - from).dot(normal));

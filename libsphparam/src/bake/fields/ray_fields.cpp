@@ -36,6 +36,12 @@ struct RayCaster {
   const Points& normals;
   CosineRays rays;
   double reach;
+  std::shared_ptr<const CornerNormals> corner_normals;  // none: `normals` are those of corners too
+
+  Vector3 corner_normal(Face f, int k) const {
+    if (corner_normals) return corner_normals->row(3 * f + k);
+    return normals.row(mesh.triangles(f, k));
+  }
 
   Start start(const SurfaceSample& sample, Side side) const {
     const SurfacePoint& at = sample.point;
@@ -43,9 +49,8 @@ struct RayCaster {
     const Vector3 a = mesh.position(corners[0]), b = mesh.position(corners[1]),
                   c = mesh.position(corners[2]);
     const Vector3& w = at.barycentric;
-    const Vector3 smooth = (w[0] * normals.row(corners[0]) + w[1] * normals.row(corners[1]) +
-                            w[2] * normals.row(corners[2]))
-                               .transpose();
+    const Vector3 smooth = w[0] * corner_normal(at.face, 0) + w[1] * corner_normal(at.face, 1) +
+                           w[2] * corner_normal(at.face, 2);
     const Vector3 flat = flat_normal(a, b, c);
     const double sign = static_cast<double>(side) * (is_back(sample.found) ? -1 : 1);
     // Of a triangle without area only the smooth normal is known; of opposed normals only the flat.
@@ -76,7 +81,7 @@ struct Bundle {
 RayCaster caster_of(std::shared_ptr<const RayScene> scene, const TriangleMesh& mesh,
                     const Points& normals, const RayFieldOptions& options) {
   const double reach = options.reach * scene->diagonal();
-  return {std::move(scene), mesh, normals, CosineRays(options.rays), reach};
+  return {std::move(scene), mesh, normals, CosineRays(options.rays), reach, options.corner_normals};
 }
 
 /// Calls visit(i, start, bundle, blocked) for every sample.
@@ -184,6 +189,19 @@ std::shared_ptr<const RayScene> rays_on(const BakeSource& source) {
   return {kept, &kept->scene};
 }
 
+/// Those of the file; of a corner that has none, that of its vertex.
+std::shared_ptr<const CornerNormals> corner_normals_of(const BakeSource& source) {
+  if (!source.file().corner_normals) return nullptr;
+  auto normals = std::make_shared<CornerNormals>(*source.file().corner_normals);
+  const Triangles& triangles = source.mesh().triangles;
+  for (Eigen::Index row = 0; row < normals->rows(); ++row) {
+    const Vector3 own = normals->row(row);
+    if (own.allFinite() && !own.isZero(0)) continue;
+    normals->row(row) = source.normals.row(triangles(row / 3, row % 3));
+  }
+  return normals;
+}
+
 using MakeRayField = SurfaceField(std::shared_ptr<const RayScene>, const TriangleMesh&,
                                   const Points&, const RayFieldOptions&);
 
@@ -192,7 +210,9 @@ SurfaceField make_of_scene(MakeRayField* make, const BakeScene& scene, const std
   if (!argument.empty()) throw FieldError("no argument is known here: " + argument);
   const TriangleMesh& mesh = scene.source.mesh();
   return make(rays_on(scene.source), mesh, scene.source.normals,
-              {.rays = scene.options.rays, .reach = reach});
+              {.rays = scene.options.rays,
+               .reach = reach,
+               .corner_normals = corner_normals_of(scene.source)});
 }
 
 }  // namespace

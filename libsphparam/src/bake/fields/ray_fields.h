@@ -5,6 +5,7 @@
 
 #include "bake/surface_field.h"
 #include "rays/ray_scene.h"
+#include "sphparam/io/mesh_file.h"
 
 namespace sphparam {
 
@@ -13,11 +14,14 @@ struct BakeScene;
 struct RayFieldOptions {
   int rays = 64;       // a sample; an odd number becomes the next even one
   double reach = 0.1;  // of the bounding box's diagonal; beyond, nothing is met
+  // Of the corners, #3F×3, unit, for meshes with hard edges; none: those of the vertices.
+  std::shared_ptr<const CornerNormals> corner_normals = nullptr;
 };
 
 /// What of the sky a point of the surface sees, weighted by the cosine: 0 none of it, 1 all of it.
 ///
-/// Rays are spread about the smooth normal (`normals`, interpolated), so that facets do not show.
+/// Rays are spread about the smooth normal (`normals`, or those of the corners, interpolated), so
+/// that facets do not show.
 /// One that would start into its own triangle stands for light that only the coarse mesh keeps away
 /// and is mirrored at the triangle's plane: a convex mesh is nowhere dark. Both sides of a triangle
 /// block. Our own choices; the rays are those of Substance's baker (cosine, 64, a tenth of the
