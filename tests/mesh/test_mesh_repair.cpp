@@ -196,6 +196,11 @@ TEST_CASE("mesh_repair: a face of an absent vertex goes and is told as such") {
   CHECK(find(repair_mesh(mesh), RepairKind::InvalidFaceRemoved)->message ==
         "2 faces removed that named vertices that do not exist, 1 that named a vertex twice: "
         "faces 5, 7, 9");
+  // Of two reasons the first counts.
+  mesh.positions(mesh.triangles(7, 1), 2) = std::numeric_limits<double>::quiet_NaN();
+  CHECK(find(repair_mesh(mesh), RepairKind::InvalidFaceRemoved)->message ==
+        "1 face removed that named a vertex that does not exist, 1 that named a vertex twice: "
+        "faces 5, 9");
 }
 
 TEST_CASE("mesh_repair: of two faces back to back on a surface the one that runs with it stays") {
@@ -206,6 +211,28 @@ TEST_CASE("mesh_repair: of two faces back to back on a surface the one that runs
   check_is_sphere(repaired);
   CHECK(find(repaired, RepairKind::DuplicateFaceRemoved)->elements == std::vector<int>{3});
   CHECK(repaired.mesh.face_count() == 80);
+}
+
+TEST_CASE(
+    "mesh_repair: of a piece that lies back to back the sheet that runs with the surface stays") {
+  const TriangleMesh ball = icosphere(3);
+  TriangleMesh mesh = ball;
+  std::vector<int> added;
+  for (Face f = 0; f < ball.face_count(); ++f) {
+    const Vector3 middle = ball.position(ball.triangles(f, 0)) +
+                           ball.position(ball.triangles(f, 1)) +
+                           ball.position(ball.triangles(f, 2));
+    if (middle.z() < 1.5) continue;  // a cap
+    added.push_back(static_cast<int>(mesh.face_count()));
+    append_face(mesh, ball.triangles(f, 0), ball.triangles(f, 2), ball.triangles(f, 1));
+  }
+  REQUIRE(added.size() > 200);
+  RepairOptions options = RepairOptions::none();
+  options.duplicates = true;
+  const RepairedMesh repaired = repair_mesh(mesh, options);
+  CHECK(same(repaired.mesh, ball));
+  CHECK(count(repaired, RepairKind::DuplicateFaceRemoved) == std::ssize(added));
+  CHECK(find(repaired, RepairKind::DuplicateFaceRemoved)->elements.front() == added.front());
 }
 
 TEST_CASE("mesh_repair: turned faces are turned back, an inside-out surface as a whole") {

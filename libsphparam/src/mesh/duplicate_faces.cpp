@@ -1,13 +1,16 @@
+// Faces with the same three vertices are told apart by the way they run: of those that run alike
+// the first stays. Two may lie back to back. Where such pairs lie side by side they are two sheets,
+// and the rim of these decides, of a pair alone its three edges. Where most of the rim has one face
+// besides, the surface is there twice, and the sheet stays that runs with it. Where most has none
+// or two, both stay: the surface passes through both (two bodies that share a wall, a flap, the ear
+// of a vertex of valence two), and splitting the edges tells whose each is.
+
 #include <algorithm>
+#include <span>
 
 #include "mesh/face_sides.h"
 #include "mesh/repair_state.h"
-
-// Faces with the same three vertices are told apart by the way they run: of those that run alike
-// the first stays. Of two that lie back to back, one stays where most of their edges have one face
-// besides them, that which runs against it; both stay where most have none or two: the surface
-// passes through both (two bodies that share a wall, a flap, the ear of a vertex of valence two),
-// and splitting the edges tells whose each is.
+#include "mesh/union_find.h"
 
 namespace sphparam {
 namespace {
@@ -56,49 +59,78 @@ void remove_copies(RepairState& state) {
   remove(state, kept, RepairKind::DuplicateFaceRemoved);
 }
 
-/// How many faces an edge has, and how many of them run from its lower to its higher vertex.
-struct EdgeUse {
-  Vertex low, high;
-  long faces, forward;
-};
-
-std::vector<EdgeUse> edge_uses(const RepairState& state) {
-  const std::vector<FaceSide> sides = sorted_sides(state.triangles(), [](Face) { return true; });
-  std::vector<EdgeUse> uses;
-  for_each_edge(sides, [&](size_t i, size_t j) {
-    EdgeUse use{sides[i].low, sides[i].high, static_cast<long>(j - i), 0};
-    for (size_t s = i; s < j; ++s) use.forward += sides[s].forward;
-    uses.push_back(use);
-  });
-  return uses;
-}
-
-const EdgeUse& use_of(const std::vector<EdgeUse>& uses, Vertex a, Vertex b) {
-  const std::pair edge{std::min(a, b), std::max(a, b)};
-  return *std::lower_bound(uses.begin(), uses.end(), edge,
-                           [](const EdgeUse& use, const std::pair<Vertex, Vertex>& wanted) {
-                             return std::pair(use.low, use.high) < wanted;
-                           });
-}
-
-/// For two faces back to back: the one to give up, or −1 for neither.
-Face superfluous(const std::vector<EdgeUse>& uses, const FaceKey& backward,
-                 const FaceKey& forward) {
-  int odd = 0, votes_for_forward = 0;
-  for (int k = 0; k < 3; ++k) {
-    const Vertex a = forward.sorted[k], b = forward.sorted[(k + 1) % 3];
-    const EdgeUse& use = use_of(uses, a, b);
-    const long others = use.faces - 2, others_up = use.forward - 1,
-               others_down = others - others_up;
-    if (others % 2 == 0) continue;
-    ++odd;
-    const bool forward_goes_up = a < b;
-    votes_for_forward += (others_down > others_up) == forward_goes_up ? 1 : -1;
+/// Of each face the one that lies at its back, or −1. Requires: no copies.
+std::vector<Face> backs(const RepairState& state) {
+  const std::vector<FaceKey> keys = sorted_keys(state);
+  std::vector<Face> back(state.faces.size(), -1);
+  for (size_t i = 1; i < keys.size(); ++i) {
+    if (keys[i - 1].sorted != keys[i].sorted) continue;
+    back[keys[i - 1].face] = keys[i].face;
+    back[keys[i].face] = keys[i - 1].face;
   }
-  if (odd < 2) return -1;
-  if (votes_for_forward == 0) return std::max(forward.face, backward.face);
-  return votes_for_forward > 0 ? backward.face : forward.face;
+  return back;
 }
+
+/// The sheets of faces that lie back to back, and what their rims say of each.
+class Sheets {
+ public:
+  Sheets(const RepairState& state, const std::vector<Face>& back)
+      : back_(back), sheet_(back.size()), rims_(back.size()) {
+    const std::vector<FaceSide> sides = sorted_sides(state.triangles(), [](Face) { return true; });
+    for_each_edge(sides, [&](size_t i, size_t j) { join(std::span(sides).subspan(i, j - i)); });
+    for_each_edge(sides, [&](size_t i, size_t j) { count(std::span(sides).subspan(i, j - i)); });
+  }
+
+  /// Is it on a sheet that doubles the surface, and not the one that runs with it?
+  bool is_superfluous(Face f) {
+    if (back_[f] < 0) return false;
+    const int own = sheet_.find(f), other = sheet_.find(back_[f]);
+    const Rim& rim = rims_[own];
+    if (own == other || 2 * rim.odd <= rim.edges) return false;
+    return rim.votes == 0 ? own > other : rim.votes < 0;
+  }
+
+ private:
+  struct Rim {
+    long edges = 0, odd = 0;  // odd: with an odd number of faces besides the two sheets
+    long votes = 0;           // of the odd ones, for this sheet and not for the other
+  };
+
+  static Face face_of(const FaceSide& side) { return side.halfedge / 3; }
+
+  /// Do two pairs meet there, and nothing else?
+  bool is_within(std::span<const FaceSide> edge) const {
+    return edge.size() == 4 && std::ranges::all_of(edge, [&](const FaceSide& side) {
+             return back_[face_of(side)] >= 0;
+           });
+  }
+
+  void join(std::span<const FaceSide> edge) {
+    if (!is_within(edge)) return;
+    for (const FaceSide& one : edge)
+      for (const FaceSide& other : edge)
+        if (one.forward != other.forward && back_[face_of(one)] != face_of(other))
+          sheet_.unite(face_of(one), face_of(other));
+  }
+
+  void count(std::span<const FaceSide> edge) {
+    if (is_within(edge)) return;
+    const long others = std::ssize(edge) - 2,
+               up = std::ranges::count(edge, true, &FaceSide::forward) - 1;
+    for (const FaceSide& side : edge) {
+      if (back_[face_of(side)] < 0) continue;
+      Rim& rim = rims_[sheet_.find(face_of(side))];
+      ++rim.edges;
+      if (others % 2 == 0) continue;
+      ++rim.odd;
+      rim.votes += (others - up > up) == side.forward ? 1 : -1;
+    }
+  }
+
+  const std::vector<Face>& back_;
+  UnionFind sheet_;        // of faces
+  std::vector<Rim> rims_;  // by the name of the sheet
+};
 
 }  // namespace
 
@@ -114,14 +146,11 @@ void remove_invalid_faces(RepairState& state) {
 
 void remove_duplicate_faces(RepairState& state) {
   remove_copies(state);
-  const std::vector<FaceKey> keys = sorted_keys(state);
-  const std::vector<EdgeUse> uses = edge_uses(state);
-  std::vector<char> kept(state.faces.size(), 1);
-  for (size_t i = 1; i < keys.size(); ++i) {
-    if (keys[i - 1].sorted != keys[i].sorted) continue;
-    const Face given_up = superfluous(uses, keys[i - 1], keys[i]);
-    if (given_up >= 0) kept[given_up] = 0;
-  }
+  const std::vector<Face> back = backs(state);
+  if (std::ranges::all_of(back, [](Face f) { return f < 0; })) return;
+  Sheets sheets(state, back);
+  std::vector<char> kept(state.faces.size());
+  for (Face f = 0; f < state.face_count(); ++f) kept[f] = !sheets.is_superfluous(f);
   remove(state, kept, RepairKind::DuplicateFaceRemoved);
 }
 
