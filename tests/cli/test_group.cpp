@@ -82,6 +82,16 @@ double size_of(const TriangleMesh& mesh) {
 
 }  // namespace
 
+TEST_CASE(
+    "group: what thousands of shapes are read and written as costs no more than their number") {
+  const Folder folder;
+  std::vector<std::string> words = {"group", "-o", folder / "out"};
+  for (int i = 0; i < 5000; ++i) words.push_back("nowhere" + std::to_string(i) + ".obj");
+  const Ended ended = sphparam_program(words);  // pair by pair, as it was, a quarter of an hour
+  CHECK(ended.code == 3);
+  CHECK_THAT(ended.err, Contains("nowhere0.obj: No such file"));
+}
+
 TEST_CASE("group: everything is written, every map proved, and the length is the first mode") {
   const Eggs eggs;
   write_bytes(eggs.folder / "marks.txt", "# on the template\n0 tip\n17\n");

@@ -126,6 +126,11 @@ TEST_CASE("completion: bash completes subcommands, options and words") {
   CHECK(completed("sphparam batch st") == "status\n");
   CHECK(completed("sphparam batch run --rehash --any") == "--any-program\n");
   CHECK(completed("sphparam completion ") == "bash zsh fish\n");
+  // Files, also where several may stand or the kind of file is said.
+  const std::string begun = folder / "scri";
+  for (const std::string line :
+       {"map ", "map a.obj --data ", "report a.obj -o ", "batch table work -o "})
+    CHECK(completed("sphparam " + line + begun) == begun + "pt\n");
 }
 
 }  // namespace sphparam::tests

@@ -49,6 +49,41 @@ TEST_CASE("program: help does what --help does, of a subcommand too") {
   }
 }
 
+TEST_CASE("program: help of no subcommand names the one that was meant") {
+  const Ended ended = sphparam_program({"help", "mpa"});
+  CHECK(ended.code == 2);
+  CHECK(ended.out.empty());
+  CHECK_THAT(ended.err, Contains("unknown subcommand mpa; did you mean map?"));
+}
+
+TEST_CASE(
+    "program: a file that is not there is told before a mesh is mapped, which may take minutes") {
+  const Folder folder;
+  const std::string mesh = folder / "ball.obj", nowhere = folder / "nowhere.ply";
+  write_bytes(mesh, obj_text(icosphere(1)));
+  using Words = std::vector<std::string>;
+  for (const Words& words :
+       {Words{"paint", mesh, "--image", nowhere, "-o", folder / "out.ply"},
+        {"export", mesh, "--image", nowhere, "-o", folder / "out.glb"},
+        {"export", mesh, "--orm-map", nowhere, "-o", folder / "out.glb"},
+        {"bake", mesh, "--texture", nowhere, "-o", folder / "out.png"},
+        {"bake", mesh, "--for", nowhere, "--map", "ao", "-o", folder / "out.png"},
+        {"bake", mesh, "--from", nowhere, "-o", folder / "out.png"},
+        {"remesh", mesh, "--grid", "like:" + nowhere, "-o", folder / "out.ply"},
+        {"remesh", mesh, "--grid", "ico:2", "--sample", "adap-bary-area", "--areas",
+         mesh + "," + nowhere, "-o", folder / "out.ply"},
+        {"spharm", mesh, "--align", "--flip-template", nowhere},
+        {"report", mesh, nowhere, "-o", folder / "out.html"},
+        {"group", mesh, nowhere, "-o", folder / "out"},
+        {"match", mesh, mesh, "--sphere-b", nowhere, "-o", folder / "out.ply"}}) {
+    const Ended ended = sphparam_program(words);
+    INFO(words.front() << ": " << ended.err);
+    CHECK(ended.code == 3);
+    CHECK_THAT(ended.err, Contains("nowhere.ply: No such file") && !Contains("mapped now"));
+    CHECK(folder.names() == Words{"ball.obj"});
+  }
+}
+
 TEST_CASE("program: no arguments give a short help and the usage code") {
   const Ended ended = sphparam_program({});
   CHECK(ended.code == 2);

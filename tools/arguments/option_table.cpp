@@ -64,7 +64,8 @@ std::vector<std::string> OptionEntry::words() const {
 }
 
 bool OptionEntry::takes_file() const {
-  return (positional && value.empty()) || value == "FILE" || value == "IMAGE" || value == "PNG";
+  return (positional && value.empty()) || value.starts_with("FILE") || value.starts_with("PAGE.") ||
+         value == "IMAGE" || value == "PNG";
 }
 
 std::vector<CommandEntry> option_table(const CLI::App& program) {

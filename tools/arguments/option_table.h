@@ -21,7 +21,7 @@ struct OptionEntry {
 
   /// What may be typed as the value, letter by letter: "auto" and "none" of "auto|none|V1,V2".
   std::vector<std::string> words() const;
-  bool takes_file() const;
+  bool takes_file() const;  // "FILE", "FILE,…", "FILE.csv", "PAGE.html", "IMAGE", "PNG"
   bool takes_folder() const { return value == "FOLDER"; }
 };
 

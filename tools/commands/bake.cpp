@@ -131,6 +131,8 @@ BakeArguments of_part(BakeArguments arguments, int part) {
 /// end.
 std::string bake_one(const BakeArguments& arguments, Session& session, Words& lines) {
   std::vector<BakeRequest> images = bake_requests(arguments);
+  require_there({arguments.input, arguments.sphere, arguments.target, arguments.from,
+                 arguments.settings.texture});
   const MappedMesh source = read_mesh(arguments, session);
   const BakeSettings settings = settings_of(arguments, source, session);
   images =

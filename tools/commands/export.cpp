@@ -249,6 +249,9 @@ ExportArguments of_part(ExportArguments arguments, int part) {
 
 std::string export_one(const ExportArguments& arguments, Session& session, Words& lines) {
   check_first_places(arguments);
+  const LookOptions& look = arguments.exported.look;
+  require_there({arguments.input, arguments.sphere, look.texture, look.normal, look.occlusion,
+                 look.orm, look.emissive});
   const MappedMesh mapped =
       read_mapped(arguments.input, arguments.sphere, session, arguments.repair);
   Exporter exporter(arguments, session);

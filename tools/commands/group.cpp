@@ -170,6 +170,8 @@ int run_group(GroupArguments& arguments) {
   require_sensible(arguments);
   require_folder(arguments.folder);
   require_other_files(arguments);
+  require_there(arguments.inputs);
+  require_there({arguments.reference, arguments.landmarks});
   NewFolder folder(arguments.folder);
   Session session(arguments);
   const ReadShape reference = read_shape(reference_of(arguments), arguments, session);

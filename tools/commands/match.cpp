@@ -2,9 +2,7 @@
 
 #include "sphparam/correspondence/match.h"
 
-#include <filesystem>
 #include <optional>
-#include <system_error>
 
 #include "arguments/limits.h"
 #include "arguments/match_arguments.h"
@@ -12,6 +10,7 @@
 #include "commands/match_outputs.h"
 #include "commands/sources.h"
 #include "console/console.h"
+#include "console/places.h"
 #include "sphparam/correspondence/feature_file.h"
 #include "sphparam/correspondence/landmark_file.h"
 #include "sphparam/correspondence/matched_files.h"
@@ -111,22 +110,12 @@ std::optional<CarriedFidelity> fidelity(const MatchArguments& arguments, const M
   return measure_carried(match.map, session.threads(), session.progress());
 }
 
-/// Before the first is mapped, which may take minutes. Throws: ReadError.
-void require_files(const MatchArguments& arguments) {
-  for (const std::string& path : {arguments.first, arguments.second}) {
-    std::error_code hidden;
-    if (is_stream(path) ||
-        std::filesystem::status(path, hidden).type() != std::filesystem::file_type::not_found)
-      continue;
-    throw ReadError(path, std::make_error_code(std::errc::no_such_file_or_directory).message());
-  }
-}
-
 int run_match(MatchArguments& arguments) {
   require_sensible(arguments);
   Session session(arguments);
   const std::optional<LandmarkFile> landmarks = landmark_file(arguments);
-  require_files(arguments);
+  require_there(
+      {arguments.first, arguments.second, arguments.first_sphere, arguments.second_sphere});
   MappedMesh first =
       read_side("A", arguments.first, arguments.first_sphere, arguments.repair, session);
   const MappedMesh second =

@@ -94,6 +94,7 @@ Words add_coloured_mesh(const PaintArguments& arguments, const MappedMesh& sourc
 
 int run_paint(PaintArguments& arguments) {
   require_sensible(arguments);
+  require_there({arguments.input, arguments.image, arguments.sphere});
   Session session(arguments);
   const MappedMesh source =
       read_mapped(arguments.input, arguments.sphere, session, arguments.repair);

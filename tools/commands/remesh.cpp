@@ -313,6 +313,8 @@ MissingValues missing_values(const RemeshRequests& requests) {
 int run_remesh(RemeshArguments& arguments) {
   Session session(arguments);
   const RemeshRequests requests = check_remesh_arguments(arguments);
+  require_there({arguments.input, arguments.sphere, requests.like});
+  require_there(requests.areas);
   MappedMesh mapped = read_mapped(arguments.input, arguments.sphere, session, arguments.repair,
                                   remeshing_lambda, arguments.data, missing_values(requests));
   const int last_data = last_attached(mapped.file());

@@ -136,6 +136,8 @@ std::vector<PageEntry> load_entries(const ReportArguments& arguments, const Mesh
 int run_report(ReportArguments& arguments) {
   Session session(arguments);
   require_sense(arguments);
+  require_there(arguments.inputs);
+  require_there({arguments.sphere, arguments.texture});
   const MeshSource source =
       read_mended(arguments.inputs.front(), arguments.repair, session, arguments.data);
   require_mappable(source);

@@ -140,6 +140,7 @@ void warn_of_few_vertices(const SpharmArguments& arguments, const MeshFile& file
 
 int run_spharm(SpharmArguments& arguments) {
   require_sensible(arguments);
+  require_there({arguments.input, arguments.sphere, arguments.flips});
   Session session(arguments);
   const MappedMesh mapped =
       read_mapped(arguments.input, arguments.sphere, session, arguments.repair);

@@ -1,15 +1,20 @@
 #include "console/places.h"
 
+#include <sys/stat.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "console/exit_codes.h"
 #include "sphparam/io/companions.h"
 #include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/read_options.h"
 #include "sphparam/io/safe_file.h"
 
 namespace sphparam::cli {
@@ -71,14 +76,25 @@ Names files_named(const CLI::Option& option) {
   return files;
 }
 
-/// `output` may be a device, or not there.
-void require_not_read(const std::string& option, const std::string& output) {
-  if (!is_file(output)) return;
-  for (const std::string& input : noted_files()) {
-    std::error_code missing;  // a file that is not there is no other file
-    if (fs::equivalent(input, output, missing))
-      throw UsageMistake(option + ": " + output + " is the input; it would be replaced");
+/// What tells a file from others, whatever it is called.
+using FileId = std::pair<dev_t, ino_t>;
+
+std::set<FileId> ids_of(const Names& files) {
+  std::set<FileId> ids;
+  for (const std::string& file : files) {
+    struct stat status {};  // a file that is not there is no other file
+    if (::stat(file.c_str(), &status) == 0) ids.emplace(status.st_dev, status.st_ino);
   }
+  return ids;
+}
+
+/// `output` may be a device, or not there.
+void require_not_read(const std::string& option, const std::string& output,
+                      const std::set<FileId>& read) {
+  if (!is_file(output)) return;
+  for (const FileId& id : ids_of({output}))
+    if (read.contains(id))
+      throw UsageMistake(option + ": " + output + " is the input; it would be replaced");
 }
 
 std::string file_name(const std::string& path) { return fs::path(path).filename().string(); }
@@ -91,15 +107,24 @@ bool holds_one_output(const std::string& path) {
          fs::is_directory(status);
 }
 
+/// What a path names, however it is spelled; a stream as it is.
+std::string place_of(const std::string& path) {
+  if (is_stream(path)) return path;
+  std::error_code hidden;
+  const fs::path absolute = fs::absolute(path, hidden);
+  const fs::path canonical = fs::weakly_canonical(absolute, hidden);
+  return (hidden ? absolute.lexically_normal() : canonical).string();  // a name may be too long
+}
+
 void require_distinct(const Outputs& outputs) {
-  for (size_t i = 0; i < outputs.size(); ++i) {
-    for (size_t j = 0; j < i; ++j) {
-      const auto& [option, path] = outputs[i];
-      const auto& [other, place] = outputs[j];
-      if (!is_same_place(path, place) || !holds_one_output(path)) continue;
-      throw UsageMistake((other == option ? option + " twice: " : other + " and " + option + ": ") +
-                         "the same file, " + output_name(path));
-    }
+  std::map<std::string, std::string> option_at;  // by place: a group has thousands
+  for (const auto& [option, path] : outputs) {
+    if (path.empty() || !holds_one_output(path)) continue;
+    const auto [found, is_new] = option_at.emplace(place_of(path), option);
+    if (is_new) continue;
+    const std::string& other = found->second;
+    throw UsageMistake((other == option ? option + " twice: " : other + " and " + option + ": ") +
+                       "the same file, " + output_name(path));
   }
 }
 
@@ -130,9 +155,11 @@ void note_files_read(const CLI::App& command) {
   for (std::string& file : files_read(command)) noted_files().push_back(std::move(file));
   keep_from_outputs(noted_files());
   guard_companions();
+  const std::set<FileId> read = ids_of(noted_files());
   for (const CLI::Option* option : command.get_options()) {
     if (!writes(*option)) continue;
-    for (const std::string& file : files_named(*option)) require_not_read(option->get_name(), file);
+    for (const std::string& file : files_named(*option))
+      require_not_read(option->get_name(), file, read);
   }
 }
 
@@ -142,19 +169,12 @@ void note_files_read(const std::vector<std::string>& files) {
 }
 
 bool is_same_place(const std::string& one, const std::string& other) {
-  if (one.empty() || other.empty()) return false;
-  if (is_stream(one) || is_stream(other)) return one == other;
-  const auto one_spelling = [](const std::string& path) {
-    std::error_code hidden;
-    const fs::path absolute = fs::absolute(path, hidden);
-    const fs::path canonical = fs::weakly_canonical(absolute, hidden);
-    return hidden ? absolute.lexically_normal() : canonical;  // as of a name that is too long
-  };
-  return one_spelling(one) == one_spelling(other);
+  return !one.empty() && !other.empty() && place_of(one) == place_of(other);
 }
 
 void check_places(const Outputs& outputs, const std::string& new_folder) {
-  for (const auto& [option, path] : outputs) require_not_read(option, path);
+  const std::set<FileId> read = ids_of(noted_files());
+  for (const auto& [option, path] : outputs) require_not_read(option, path, read);
   require_distinct(outputs);
   for (const auto& [option, path] : outputs) {
     const fs::path in_new = fs::path(new_folder) / file_name(path);
@@ -168,6 +188,16 @@ void require_report_place(const std::string& json) {
   if (is_mesh_name(json)) {
     throw UsageMistake("--json: " + json +
                        " is the name of a mesh, not of a report; `--json -` is standard output");
+  }
+}
+
+void require_there(const std::vector<std::string>& files) {
+  for (const std::string& file : files) {
+    std::error_code hidden;
+    if (file.empty() || is_stream(file) ||
+        fs::status(file, hidden).type() != fs::file_type::not_found)
+      continue;
+    throw ReadError(file, std::make_error_code(std::errc::no_such_file_or_directory).message());
   }
 }
 

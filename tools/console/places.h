@@ -51,6 +51,10 @@ void check_places(const Outputs& outputs, const std::string& new_folder = "");
 /// flag once, the word behind it is a mesh, which must not be lost.
 void require_report_place(const std::string& json);
 
+/// Files that are read only after work that may take minutes: a slip of the hand is told before.
+/// Empty paths and streams are not looked at. Throws: ReadError where one is not there.
+void require_there(const std::vector<std::string>& files);
+
 /// Throws: UsageMistake where two files are to come from standard input. `names`: of these files,
 /// as in "the mesh and --image".
 void require_one_stream(const std::vector<std::string>& inputs, const std::string& names);

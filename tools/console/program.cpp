@@ -237,10 +237,14 @@ const CLI::App* subcommand_named(const CLI::App& program, const std::string& nam
 }
 
 /// `sphparam FILE` is `sphparam asset FILE`, `sphparam help WORDS` is `sphparam WORDS --help`.
+/// Throws: UsageMistake where help is wanted of no subcommand.
 std::vector<char*> with_subcommand(const CLI::App& program, int argc, char** argv) {
   static char asset[] = "asset", help[] = "--help";
   std::vector<char*> words(argv, argv + argc);
   if (argc > 1 && std::string_view(argv[1]) == "help") {
+    if (argc > 2 && argv[2][0] != '-' && !subcommand_named(program, argv[2]))
+      throw UsageMistake(std::string("unknown subcommand ") + argv[2] +
+                         did_you_mean(argv[2], command_names(program)));
     words.erase(words.begin() + 1);
     words.insert(words.end(), {help, nullptr});
     return words;
