@@ -137,6 +137,46 @@ TEST_CASE("image codec: the texts of an image are told, and nothing that is no t
                                    "ImageDescription", "sphparam:map=ao\nsphparam:source=a"}) == 1);
 }
 
+TEST_CASE("image codec: texts of a PNG beyond ASCII are in iTXt, what is no UTF-8 in tEXt") {
+  const std::string umlauts = "Büste, 像", latin = "B\xfcste";
+  const std::vector<char> png =
+      encode_image(ramp(2, 2, 3, 256), ImageFormat::Png,
+                   {.metadata = {{"sphparam:source", umlauts}, {"sphparam:map", "ao"}}});
+  const std::string_view bytes(png.data(), png.size());
+  const size_t chunk = bytes.find("iTXt");
+  REQUIRE(chunk == 33 + 4);  // behind the head
+  CHECK(bytes.substr(chunk + 4).starts_with("sphparam:source" + std::string(5, '\0') + umlauts));
+  CHECK(bytes.find("tEXtsphparam:map") != std::string_view::npos);
+  CHECK(bytes.find("tEXtsphparam:source") == std::string_view::npos);
+  ImageTexts texts;
+  CHECK(same_pixels(decode_image(png, "m", {}, &texts), ramp(2, 2, 3, 256)));
+  CHECK(std::ranges::count(texts,
+                           std::pair<std::string, std::string>("sphparam:source", umlauts)) == 1);
+  texts.clear();
+  decode_image(encode_image(ramp(2, 2, 3, 256), ImageFormat::Png,
+                            {.metadata = {{"sphparam:source", latin}}}),
+               "m", {}, &texts);
+  CHECK(std::ranges::count(texts, std::pair<std::string, std::string>("sphparam:source", latin)) ==
+        1);
+}
+
+TEST_CASE("image codec: a JPEG that ends early or is damaged is refused") {
+  const std::vector<char> whole = encode_image(ramp(64, 64, 3, 256), ImageFormat::Jpeg, {});
+  CHECK(decode_image(whole, "w.jpg").width == 64);
+  std::vector<char> longer = whole;
+  longer.resize(whole.size() + 200, '\0');  // what follows the end is nobody's
+  CHECK(decode_image(longer, "l.jpg").pixels == decode_image(whole, "w.jpg").pixels);
+  for (const double share : {0.3, 0.5, 0.9}) {
+    const auto size = static_cast<std::ptrdiff_t>(share * static_cast<double>(whole.size()));
+    CHECK_THROWS_WITH(decode_image({whole.begin(), whole.begin() + size}, "cut.jpg"),
+                      Contains("cut.jpg") && Contains("nds early"));
+  }
+  CHECK_THROWS_AS(decode_image({whole.begin(), whole.end() - 2}, "cut.jpg"), ImageError);
+  std::vector<char> damaged = whole;
+  std::fill_n(damaged.end() - static_cast<std::ptrdiff_t>(whole.size() / 3), 64, '\xff');
+  CHECK_THROWS_AS(decode_image(damaged, "damaged.jpg"), ImageError);
+}
+
 TEST_CASE("image codec: an EXR whose pixels have depths is refused") {
   const auto number = [](int value) {
     return std::string{static_cast<char>(value), 0, 0, 0};  // from the lowest byte on

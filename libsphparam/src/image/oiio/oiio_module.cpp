@@ -16,8 +16,10 @@
 #include <random>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "image/oiio/png_texts.h"
 #include "image/oiio/webp_codec.h"
 
 // The only code that knows OpenImageIO. Files are decoded from memory by the decoder that the
@@ -118,6 +120,16 @@ void tell_texts(const OIIO::ImageSpec& spec, SphparamTextSink text, void* contex
   }
 }
 
+/// What libjpeg only warns of, painting grey: data that end early or are damaged. Empty: nothing,
+/// or what is wrong is in the head alone.
+std::string damage_of(OIIO::ImageInput& input, std::string_view format) {
+  if (format != "jpeg" || !input.has_error()) return "";
+  const std::string told = input.geterror();
+  for (const char* const harmless : {"JFIF revision", "Adobe color transform", "SOS parameters"})
+    if (told.find(harmless) != std::string::npos) return "";
+  return "damaged, or ends early: " + told;
+}
+
 int decode(const char* format, const char* bytes, size_t size, int64_t max_megabytes,
            int max_channels, SphparamPixelRoom room, void* room_context, SphparamTextSink text,
            void* text_context, SphparamBytesSink error, void* error_context) try {
@@ -156,6 +168,8 @@ int decode(const char* format, const char* bytes, size_t size, int64_t max_megab
                          is_placed ? apart.data() : pixels)) {
     return fail(input->geterror());
   }
+  const std::string damage = damage_of(*input, format);
+  if (!damage.empty()) return fail(damage);
   if (is_placed) place(apart, spec, pixels);
   return 0;
 } catch (const std::exception& e) {
@@ -187,8 +201,17 @@ class CallersFile : public OIIO::Filesystem::IOProxy {
 
   const char* proxytype() const override { return "callers_file"; }
   size_t write(const void* bytes, size_t size) override {
-    return advanced(pwrite(bytes, size, m_pos));
+    if (png_texts_.empty() || m_pos + static_cast<int64_t>(size) < sphparam::png_head_size)
+      return advanced(pwrite(bytes, size, m_pos));
+    const auto head = static_cast<size_t>(sphparam::png_head_size - m_pos);
+    const std::string texts = std::exchange(png_texts_, {});
+    const auto* const first = static_cast<const char*>(bytes);
+    const bool written =
+        write(first, head) == head && write(texts.data(), texts.size()) == texts.size();
+    return written ? head + write(first + head, size - head) : 0;
   }
+  /// Chunks that go behind the head of a PNG, whose encoder does not know of them.
+  void add_png_texts(std::string chunks) { png_texts_ = std::move(chunks); }
   size_t pwrite(const void* bytes, size_t size, int64_t offset) override {
     if (write_at_(context_, offset, bytes, size) != 0) return 0;
     size_ = std::max(size_, static_cast<size_t>(offset) + size);
@@ -214,6 +237,7 @@ class CallersFile : public OIIO::Filesystem::IOProxy {
   SphparamBytesFrom read_from_;
   void* context_;
   size_t size_;
+  std::string png_texts_;
 };
 
 /// An image under way. The encoder goes before the file it writes to.
@@ -234,6 +258,16 @@ int guarded(SphparamBytesSink error, void* error_context, const Codec& codec,
 } catch (const std::exception& e) {
   tell(error, error_context, words_of(e));
   return 1;
+}
+
+/// Of the texts that a PNG's usual chunks have no characters for.
+std::string png_texts_of(const SphparamImageFile& file) {
+  std::string chunks;
+  for (size_t i = 0; i < file.metadata_count; ++i) {
+    const std::string value = file.metadata[2 * i + 1];
+    if (sphparam::needs_utf8(value)) chunks += sphparam::itxt_chunk(file.metadata[2 * i], value);
+  }
+  return chunks;
 }
 
 OIIO::ImageSpec spec_of(const SphparamImageFile& file) {
@@ -261,7 +295,7 @@ OIIO::ImageSpec spec_of(const SphparamImageFile& file) {
   std::string all;
   for (size_t i = 0; i < file.metadata_count; ++i) {
     const std::string name = file.metadata[2 * i], value = file.metadata[2 * i + 1];
-    spec.attribute(name, value);
+    if (format != "png" || !sphparam::needs_utf8(value)) spec.attribute(name, value);
     if (name.starts_with("sphparam:")) all += (all.empty() ? "" : "\n") + name + "=" + value;
   }
   const bool one_text = format == "jpeg" || format == "tiff";
@@ -277,6 +311,7 @@ void* open(const SphparamImageFile* file, SphparamBytesSink error, void* error_c
   auto image = std::make_unique<OpenImage>(OpenImage{
       {CallersFile::Write, file->write, nullptr, file->context, 0}, nullptr, spec_of(*file), {}});
   image->type = type_of_rows(image->spec);
+  if (std::string_view(file->format) == "png") image->file.add_png_texts(png_texts_of(*file));
   image->output = OIIO::ImageOutput::create(file->format);
   if (!image->output) {
     tell(error, error_context, OIIO::geterror());
