@@ -1,6 +1,8 @@
 #include <array>
 #include <catch2/catch.hpp>
+#include <stdexcept>
 
+#include "mesh/index_range.h"
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/mesh/topology.h"
 #include "support/test_meshes.h"
@@ -95,6 +97,14 @@ TEST_CASE("topology: open, misoriented and non-manifold meshes are refused with 
     CHECK(error.defects()[0].kind == DefectKind::UnusedVertex);
     CHECK(error.defects()[0].elements == std::vector<int>{6});
   }
+}
+
+TEST_CASE("topology: more faces than have numbers are refused, and what to do is said") {
+  CHECK_NOTHROW(require_numbered(715827882, 2147483647));
+  CHECK_THROWS_AS(require_numbered(4, 2147483648), std::length_error);
+  CHECK_THROWS_WITH(require_numbered(715827883, 4),
+                    "a mesh of 715827883 faces and 4 vertices: of faces 715827882 have numbers, of "
+                    "vertices 2147483647; make it coarser, or take it in parts");
 }
 
 TEST_CASE("topology: a fan of 100,000 faces is built at once") {

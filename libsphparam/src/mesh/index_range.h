@@ -1,5 +1,9 @@
 #pragma once
 
+#include <limits>
+#include <stdexcept>
+#include <string>
+
 #include "sphparam/mesh/triangle_mesh.h"
 
 namespace sphparam {
@@ -10,6 +14,17 @@ inline bool counts_from_one(const TriangleMesh& mesh) {
   const Triangles& triangles = mesh.triangles;
   return triangles.size() > 0 && triangles.minCoeff() == 1 &&
          triangles.maxCoeff() == mesh.positions.rows();
+}
+
+/// Half-edges are numbered by ints, 3·face + corner.
+/// Throws: std::length_error for more faces or vertices than these reach.
+inline void require_numbered(Eigen::Index faces, Eigen::Index vertices) {
+  constexpr Eigen::Index most = std::numeric_limits<int>::max();
+  if (faces <= most / 3 && vertices <= most) return;
+  throw std::length_error("a mesh of " + std::to_string(faces) + " faces and " +
+                          std::to_string(vertices) + " vertices: of faces " +
+                          std::to_string(most / 3) + " have numbers, of vertices " +
+                          std::to_string(most) + "; make it coarser, or take it in parts");
 }
 
 /// Whether a face names only vertices that are there.

@@ -470,7 +470,10 @@ bool MeshInspection::is_sphere() const {
                       [](const MeshDefect& defect) { return defect.fatal; });
 }
 
-MeshInspection inspect_mesh(const TriangleMesh& mesh) { return Inspector(mesh).run(); }
+MeshInspection inspect_mesh(const TriangleMesh& mesh) {
+  require_numbered(mesh.face_count(), mesh.vertex_count());
+  return Inspector(mesh).run();
+}
 
 MeshError::MeshError(std::vector<MeshDefect> defects)
     : std::runtime_error(joined_messages(defects)), defects_(std::move(defects)) {}

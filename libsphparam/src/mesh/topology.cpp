@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "mesh/index_range.h"
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/parallel.h"
 
@@ -82,10 +83,15 @@ bool is_one_fan(const int* partner, int count) {
   throw MeshError(std::move(reasons));
 }
 
+int vertex_count_of(const TriangleMesh& mesh) {
+  require_numbered(mesh.face_count(), mesh.vertex_count());
+  return static_cast<int>(mesh.vertex_count());
+}
+
 }  // namespace
 
 Topology::Topology(const TriangleMesh& mesh, int threads)
-    : Topology(mesh.triangles, static_cast<int>(mesh.vertex_count()), threads) {}
+    : Topology(mesh.triangles, vertex_count_of(mesh), threads) {}
 
 Topology::Topology(const Triangles& triangles, int vertex_count, int threads) {
   if (!build(triangles, vertex_count, threads)) refuse(triangles, vertex_count);
@@ -106,6 +112,7 @@ bool Topology::is_of(const Triangles& triangles) const {
 }
 
 bool Topology::build(const Triangles& triangles, int vertex_count, int threads) {
+  require_numbered(triangles.rows(), vertex_count);
   // 1. How many corners every vertex has, and where the list of them starts.
   const size_t halfedges = at(triangles.size());
   origin_.assign(triangles.data(), triangles.data() + halfedges);
