@@ -98,10 +98,21 @@ bool all_indices_inside(const RepairState& state) {
   });
 }
 
-/// The kind has two reasons; where faces named vertices that were never there, which it was.
-void tell_absent_vertices(RepairedMesh& result, const Triangles& given, Eigen::Index vertices) {
+bool names_no_place(const TriangleMesh& mesh, Face f) {
+  for (int k = 0; k < 3; ++k) {
+    const Vertex v = mesh.triangles(f, k);
+    if (v >= 0 && v < mesh.vertex_count() && !mesh.position(v).allFinite()) return true;
+  }
+  return false;
+}
+
+/// The kind has two reasons; where faces named vertices that were never there, which it was. Those
+/// that named one without a place as well went with that.
+void tell_absent_vertices(RepairedMesh& result, const TriangleMesh& given) {
   long absent = 0;
-  for (Face f = 0; f < given.rows(); ++f) absent += is_inside(given, f, vertices) ? 0 : 1;
+  for (Face f = 0; f < given.face_count(); ++f) {
+    if (!is_inside(given.triangles, f, given.vertex_count()) && !names_no_place(given, f)) ++absent;
+  }
   if (absent == 0) return;
   for (RepairAction& action : result.actions) {
     if (action.kind != RepairKind::InvalidFaceRemoved) continue;
@@ -153,6 +164,7 @@ RepairedMesh repair_mesh(const TriangleMesh& mesh, const RepairOptions& options)
   require_at_least("longest_handle_length", options.longest_handle_length, 0);
   require_at_least("weld_share", options.weld_share, -1);
   require_at_least("weld_length", options.weld_length, -1);
+  require_numbered(mesh.face_count(), mesh.vertex_count());
   RepairState state(mesh);
   MeshInspection inspection = inspect_mesh(mesh);
   if (counts_from_one(mesh)) return as_result(std::move(state), std::move(inspection));
@@ -175,7 +187,7 @@ RepairedMesh repair_mesh(const TriangleMesh& mesh, const RepairOptions& options)
     if (state.log_size() == done_before || is_given_up(state, options)) break;
   }
   RepairedMesh result = as_result(std::move(state), std::move(inspection));
-  tell_absent_vertices(result, mesh.triangles, mesh.positions.rows());
+  tell_absent_vertices(result, mesh);
   return result;
 }
 
