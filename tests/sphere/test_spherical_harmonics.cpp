@@ -224,6 +224,10 @@ TEST_CASE("spherical_harmonics: sizes that do not fit are refused, and work can 
                   std::invalid_argument);
   CHECK_THROWS_AS(fit_harmonics(topology, map_of(sphere), Functions::Zero(42, 1), {.degree = 1001}),
                   std::invalid_argument);
+  Functions values = Functions::Ones(42, 2);
+  values(7, 1) = std::nan("");
+  CHECK_THROWS_WITH(fit_harmonics(topology, map_of(sphere), values, {}),
+                    "spherical harmonics: the value of function 1 at vertex 7 is no finite number");
   CHECK_THROWS_AS(fit_harmonics(topology, map_of(sphere), Functions::Ones(42, 1),
                                 {.progress = [](std::string_view, double) { return false; }}),
                   Cancelled);

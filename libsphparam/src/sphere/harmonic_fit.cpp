@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "option_domain.h"
@@ -129,6 +130,17 @@ class NormalEquations {
   const HarmonicFitOptions& options_;
 };
 
+void require_values(const Functions& values) {
+  for (Eigen::Index k = 0; k < values.cols(); ++k) {
+    for (Eigen::Index v = 0; v < values.rows(); ++v) {
+      if (std::isfinite(values(v, k))) continue;
+      throw std::invalid_argument("spherical harmonics: the value of function " +
+                                  std::to_string(k) + " at vertex " + std::to_string(v) +
+                                  " is no finite number");
+    }
+  }
+}
+
 }  // namespace
 
 HarmonicFit fit_harmonics(const Topology& topology, const SphereMap& map, const Functions& values,
@@ -139,6 +151,7 @@ HarmonicFit fit_harmonics(const Topology& topology, const SphereMap& map, const 
   if (values.rows() != topology.vertex_count() || map.points.rows() != topology.vertex_count()) {
     throw std::invalid_argument("spherical harmonics: not one value and one ray a vertex");
   }
+  require_values(values);
   HarmonicFit fit;
   const VectorX shares = vertex_solid_angles(topology, map);
   if (options.least_squares) {
