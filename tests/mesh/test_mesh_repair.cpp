@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <limits>
 #include <random>
 #include <set>
@@ -495,6 +496,37 @@ TEST_CASE("mesh_repair: faces without area go where the surface stays a sphere")
     check_is_sphere(repaired);
     CHECK(repaired.actions.empty());
     CHECK(repaired.mesh.triangles == mesh.triangles);
+  }
+}
+
+TEST_CASE("mesh_repair: faces without area are found and mended however small beside the mesh") {
+  TriangleMesh mesh = icosphere(4);
+  for (double& x : mesh.positions.reshaped()) x = 2 * std::round(500 * x);  // sums and halves exact
+  const Eigen::Index vertices = mesh.vertex_count(), faces = mesh.face_count();
+  constexpr int added = 400;
+  mesh.positions.conservativeResize(vertices + added, 3);
+  mesh.triangles.conservativeResize(faces + 2 * added, 3);
+  for (int i = 0; i < added; ++i) {  // a vertex on a side that only one of its two faces knows
+    const Eigen::RowVector3i corners = mesh.triangles.row(3 * i);
+    const auto middle = static_cast<Vertex>(vertices + i);
+    mesh.positions.row(middle) =
+        (mesh.positions.row(corners[0]) + mesh.positions.row(corners[1])) / 2;
+    mesh.triangles.row(3 * i) << corners[0], middle, corners[2];
+    mesh.triangles.row(faces + 2 * i) << middle, corners[1], corners[2];
+    mesh.triangles.row(faces + 2 * i + 1) << corners[0], corners[1], middle;
+  }
+  const double area = inspect_mesh(mesh).area;
+  for (const double far : {1.0, 1e3, 1e9}) {  // one vertex, which makes the box larger
+    TriangleMesh spiked = mesh;
+    const Vertex spike = mesh.triangles(faces - 1, 0);
+    spiked.positions.row(spike) *= far;
+    const MeshInspection inspection = inspect_mesh(spiked);
+    const auto flat = std::ranges::find(inspection.defects, DefectKind::ZeroAreaFace,
+                                        [](const MeshDefect& defect) { return defect.kind; });
+    REQUIRE(flat != inspection.defects.end());
+    CHECK(flat->count == added);
+    CHECK(inspection.area >= area);
+    CHECK(repair_mesh(spiked).inspection.defects.empty());
   }
 }
 

@@ -11,12 +11,16 @@ namespace sphparam {
 /// computation of the area is then nothing but rounding.
 constexpr double flat_area = 1e-14;
 
-/// Whether a triangle has no area.
+/// Whether a triangle has no area. Requires: squares of its sides neither overflow nor vanish.
 inline bool is_flat(const Vector3& a, const Vector3& b, const Vector3& c) {
   const double longest =
       std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
   return triangle_area(a, b, c) <= flat_area * longest;
 }
+
+/// The same at any size that doubles have, wherever it lies: sides are taken of the coordinates as
+/// they are, for those of a box about the mesh are rounded to what the whole mesh is.
+bool has_no_area(const Vector3& a, const Vector3& b, const Vector3& c);
 
 inline double face_area(const TriangleMesh& mesh, Face face) {
   const auto corner = [&](int k) { return mesh.position(mesh.triangles(face, k)); };

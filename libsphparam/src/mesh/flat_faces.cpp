@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "mesh/flat_face.h"
@@ -38,7 +39,10 @@ class FlatFaceMender {
   const Vector3& origin(Halfedge h) const { return point(faces_.origin(h)); }
 
   bool is_flat_face(Face f) const {
-    return is_flat(origin(3 * f), origin(3 * f + 1), origin(3 * f + 2));
+    return is_flat(faces_.origin(3 * f), faces_.origin(3 * f + 1), faces_.origin(3 * f + 2));
+  }
+  bool is_flat(Vertex a, Vertex b, Vertex c) const {
+    return has_no_area(state_.positions[a], state_.positions[b], state_.positions[c]);
   }
 
   bool collapse(Face f) {
@@ -60,12 +64,13 @@ class FlatFaceMender {
     if (!faces_.can_turn(longest)) return false;
     const Halfedge other = faces_.twin(longest);
     if (state_.fillers[other / 3]) return false;
-    const Vector3 &a = origin(longest), &b = origin(other), &c = point(faces_.apex(longest)),
-                  &d = point(faces_.apex(other));
+    const Vertex from = faces_.origin(longest), to = faces_.origin(other),
+                 apex = faces_.apex(longest), across = faces_.apex(other);
+    const Vector3 &a = point(from), &b = point(to), &c = point(apex), &d = point(across);
     const Vector3 normal = (b - a).cross(c - a) + (a - b).cross(d - b);
     const bool folds = (d - a).cross(c - a).dot(normal) < 0 || (b - d).cross(c - d).dot(normal) < 0;
     const int flat_before = 1 + is_flat_face(other / 3);
-    const int flat_after = is_flat(a, d, c) + is_flat(d, b, c);
+    const int flat_after = is_flat(from, across, apex) + is_flat(across, to, apex);
     if (folds || flat_after >= flat_before) return false;
     state_.log(RepairKind::FlatFaceTurned, {state_.face_origin[f]});
     split_other(longest);
@@ -102,7 +107,7 @@ bool is_flat_in_part(const RepairState& state) {
   for (Face f = 0; f < state.face_count(); ++f) {
     const auto& [a, b, c] = state.faces[f];
     if (state.fillers[f]) continue;
-    is_flat(state.shape[a], state.shape[b], state.shape[c]) ? ++flat : ++others;
+    has_no_area(state.positions[a], state.positions[b], state.positions[c]) ? ++flat : ++others;
   }
   return flat > 0 && others > 0;
 }
@@ -119,15 +124,25 @@ void mend_flat_faces(RepairState& state) {
   FlatFaceMender(state, std::move(twin)).run();
 }
 
-// Each triangle at its own unit size, so that squares neither overflow nor vanish, and one vertex
-// far away does not make points of all others; the first triangle ends it usually.
+bool has_no_area(const Vector3& a, const Vector3& b, const Vector3& c) {
+  constexpr double harmless = 1e100;  // and its reciprocal: squares are numbers
+  Vector3 one = b / 2 - a / 2, other = c / 2 - a / 2;
+  const double size = std::max(one.cwiseAbs().maxCoeff(), other.cwiseAbs().maxCoeff());
+  if (!(size > 0)) return true;
+  if (size < 1 / harmless || size > harmless) {
+    const int exponent = std::ilogb(size);
+    for (Vector3* const side : {&one, &other}) {
+      for (double& x : *side) x = std::ldexp(x, -exponent);
+    }
+  }
+  return is_flat(Vector3::Zero(), one, other);
+}
+
+// The first triangle ends it usually.
 bool has_area(const TriangleMesh& mesh) {
   for (Face f = 0; f < static_cast<Face>(mesh.face_count()); ++f) {
-    const Vector3 origin = mesh.position(mesh.triangles(f, 0)) / 2;
-    const Vector3 b = mesh.position(mesh.triangles(f, 1)) / 2 - origin;
-    const Vector3 c = mesh.position(mesh.triangles(f, 2)) / 2 - origin;
-    const double size = std::max(b.cwiseAbs().maxCoeff(), c.cwiseAbs().maxCoeff());
-    if (size > 0 && !is_flat(Vector3::Zero(), b / size, c / size)) return true;
+    const auto corner = [&](int k) { return mesh.position(mesh.triangles(f, k)); };
+    if (!has_no_area(corner(0), corner(1), corner(2))) return true;
   }
   return false;
 }

@@ -151,9 +151,13 @@ class Inspector {
     return (mesh_.position(corner(f, k)) - centre_) / scale_;
   }
 
+  /// Of sides as they are: a small face in a large box keeps its digits.
   double scaled_area(Face f) const {
-    const Vector3 a = scaled_corner(f, 0);
-    return triangle_area(a, scaled_corner(f, 1), scaled_corner(f, 2));
+    const Vector3 half = mesh_.position(corner(f, 0)) / 2;
+    const auto side = [&](int k) -> Vector3 {
+      return (mesh_.position(corner(f, k)) / 2 - half) / (scale_ / 2);
+    };
+    return triangle_area(Vector3::Zero(), side(1), side(2));
   }
 
   void check_edges() {
@@ -355,7 +359,10 @@ class Inspector {
       const Vector3 a = scaled_corner(f, 0), b = scaled_corner(f, 1), c = scaled_corner(f, 2);
       result_.area += scaled_area(f);
       result_.volume += a.dot(b.cross(c)) / 6;
-      if (is_flat(a, b, c)) flat.add({f});
+      if (has_no_area(mesh_.position(corner(f, 0)), mesh_.position(corner(f, 1)),
+                      mesh_.position(corner(f, 2)))) {
+        flat.add({f});
+      }
     }
     result_.area *= scale_ * scale_;
     result_.volume *= scale_ * scale_ * scale_;
