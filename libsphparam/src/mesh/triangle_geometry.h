@@ -7,9 +7,10 @@
 
 namespace sphparam {
 
-/// 0 to π, exact to rounding: an arc cosine would lose small angles. 0 where a vector is zero.
+/// 0 to π, exact to rounding: an arc cosine would lose small angles. 0 where a vector is zero: its
+/// product may be −0, where the angle would be π.
 inline double angle_between(const Vector3& a, const Vector3& b) {
-  return elementary::atan2(a.cross(b).norm(), a.dot(b));
+  return elementary::atan2(a.cross(b).norm(), a.dot(b) + 0.0);
 }
 
 /// Of the triangle abc.

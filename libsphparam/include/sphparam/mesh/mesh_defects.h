@@ -51,7 +51,7 @@ struct MeshInspection {
   long genus = -1;                // of the one component; -1 where it has no meaning
   double area = 0;
   double volume = 0;  // signed; positive when the faces are counter-clockwise from outside
-  Vector3 lower = Vector3::Zero();
+  Vector3 lower = Vector3::Zero();  // of the box about the used vertices
   Vector3 upper = Vector3::Zero();
   std::vector<MeshDefect> defects;  // fatal ones first
 

@@ -49,8 +49,8 @@ struct RepairOptions {
   bool keep_holes = false;
   HandleChoice handle_choice = HandleChoice::Shortest;
   /// Not negative: boundary vertices that are at most so far apart become one, and edges are split
-  /// at vertices that lie so near (with `cracks`); in diagonals of the bounding box, or a length of
-  /// the mesh instead where `weld_length` is not negative.
+  /// at vertices that lie so near (with `cracks`); in diagonals of the box about the vertices that
+  /// faces use, or a length of the mesh instead where `weld_length` is not negative.
   double weld_share = -1, weld_length = -1;
   /// The longest loop that a handle may be cut along, in diagonals of the bounding box of the part
   /// that it is in; a length of the mesh instead where `longest_handle_length` is more than 0.
@@ -189,8 +189,8 @@ struct RepairedMesh {
 /// created vertex where every ear would double an edge. Repeated until nothing more is to be done.
 /// Holes that are kept are closed by rings of created vertices, each of half as many as the one
 /// before: O(n) faces, none of them long, whatever the boundary is like. No other step touches the
-/// surface for their sake: with fillers nothing is turned outward, no flat filler is mended, and
-/// loops of handles keep to the surface where they can.
+/// surface for their sake: nothing is turned outward where they are over 0.4 of the area, no flat
+/// filler is mended, and loops of handles keep to the surface where they can.
 /// Handles: loops that do not separate the surface, the shortest found first (a basis of loops by
 /// tree and cotree, Eppstein 2003; each shorter one crosses one of these, so searches begin there;
 /// which loops separate is told by random cohomology classes), each tightened until no vertex of it

@@ -17,7 +17,7 @@ class Topology {
  public:
   /// Requires: every directed edge occurs once, its opposite once; one fan of faces a vertex; no
   ///           unused vertex.
-  /// Throws: MeshError naming every defect, if not.
+  /// Throws: MeshError naming every defect, if not; length_error for more than INT_MAX/3 faces.
   /// Cost: O(#V + #F), about 30 bytes a triangle. `threads`, 0: all cores.
   explicit Topology(const TriangleMesh& mesh, int threads = 0);
   Topology(const Triangles& triangles, int vertex_count, int threads = 0);

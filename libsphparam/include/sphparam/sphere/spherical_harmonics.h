@@ -78,9 +78,9 @@ constexpr double settled_quadrature = 1e-4;
 /// something open (large triangles, great degrees) the piecewise linear function decides.
 /// Ensures: functions that are harmonics of degree ≤ L at the vertices are found up to rounding
 /// where the vertices determine them; same bits for any number of threads. Requires: a map that
-/// `certify` calls bijective, unit rays. Throws: std::invalid_argument for wrong sizes or options;
-/// Cancelled. Cost: two transforms of #V points an iteration, few where triangles are small against
-/// a wave; quadrature: a transform and a location of #F nodes, one of four times as many, and so on
+/// `certify` calls bijective, unit rays. Throws: std::invalid_argument for wrong sizes or options,
+/// or NaN; Cancelled. Cost: two transforms of #V points an iteration, few where triangles are small
+/// beside a wave; quadrature: a transform and a location of #F nodes, one of four times as many, and so on
 /// until they agree (`settled_quadrature`), 2 million nodes at most. Source: least squares:
 /// Brechbühler, Gerig and Kübler (1995), Section 4; conjugate gradients on the normal equations,
 /// and their start: our own.
