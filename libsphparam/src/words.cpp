@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "number_text.h"
+#include "place_text.h"
 
 namespace sphparam {
 
@@ -30,13 +31,11 @@ std::string kept_line(const KeptParts& parts, const std::vector<RepairAction>& a
 }
 
 std::string handle_line(const HandleLoop& loop) {
-  const Vector3& c = loop.centre;
   return std::string(loop.filled ? "closed" : "cut") + " along " +
          counted(std::ssize(loop.vertices), "edge", "edges") + ", " + short_number(loop.length) +
-         " long (" + percent(loop.share) + " of the diagonal), about (" + short_number(c.x(), 6) +
-         ", " + short_number(c.y(), 6) + ", " + short_number(c.z(), 6) + "): area " +
-         short_number(loop.area_added) + " added" +
-         (loop.crossings > 0 ? ", passing through the surface" : "");
+         " long (" + percent(loop.share) + " of the diagonal), about (" +
+         place_text(loop.centre, loop.length) + "): area " + short_number(loop.area_added) +
+         " added" + (loop.crossings > 0 ? ", passing through the surface" : "");
 }
 
 std::string handle_lines(const std::vector<HandleLoop>& loops, const std::string& indent) {

@@ -73,7 +73,12 @@ TEST_CASE(
   const Ended ended = balls.measure({"--max-distance", "0.4", "--json", json});
   CHECK(ended.code == 6);
   CHECK_THAT(ended.err, Contains("--max-distance 0.4"));
-  CHECK(Json::parse(bytes_of(json))["limits"][0]["exceeded"] == true);
+  const Json limit = Json::parse(bytes_of(json))["limits"][0];
+  CHECK(limit["exceeded"] == true);
+  const std::string measured = limit["measured"].dump(),
+                    just_below = Json(limit["measured"].get<double>() * (1 - 1e-12)).dump();
+  CHECK_THAT(balls.measure({"--max-distance", just_below}).err,
+             Contains("measured " + measured + ", more than --max-distance " + just_below));
 }
 
 TEST_CASE("measure: the distance of every vertex, as a property and as colours") {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "number_text.h"
+#include "place_text.h"
 #include "sphparam/names.h"
 #include "sphparam/words.h"
 
@@ -23,6 +24,13 @@ TEST_CASE("number_text: as many digits as people read, or all that matter") {
   CHECK(shortest(0.1) == "0.1");
   for (const double value : {1 / 3., std::numeric_limits<double>::min(), 1e300})
     CHECK(std::stod(shortest(value)) == value);
+}
+
+TEST_CASE("place_text: places of one shape are told apart wherever it stands") {
+  CHECK(place_text({1.25, -2, 1 / 3.}, 4) == "1.25, -2, 0.333333");
+  CHECK(place_text({391234.25, 5821456.5, 34.125}, 0.5, " ") == "391234.25 5821456.5 34.125");
+  CHECK(place_text({1e8, 1e8 + 0.125, 0}, 1) == "100000000, 100000000.125, 0");
+  CHECK(place_text({1, 2, 3}, 0) == "1, 2, 3");
 }
 
 TEST_CASE("number_text: numbers have a point, whatever locale the program has set") {

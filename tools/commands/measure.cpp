@@ -139,8 +139,9 @@ int tell_exceeded(const std::vector<DistanceLimit>& limits) {
   for (const DistanceLimit& limit : limits) {
     if (!limit.exceeded()) continue;
     code = LimitExceeded;
-    print_error("measured " + short_number(limit.measured, 6) + ", more than " + limit.name + " " +
-                short_number(limit.limit, 6));
+    std::string measured = short_number(limit.measured, 6), most = short_number(limit.limit, 6);
+    if (measured == most) measured = shortest(limit.measured), most = shortest(limit.limit);
+    print_error("measured " + measured + ", more than " + limit.name + " " + most);
   }
   return code;
 }

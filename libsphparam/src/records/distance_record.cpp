@@ -6,10 +6,11 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "number_text.h"
+#include "place_text.h"
 #include "records/json_parts.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/version.h"
-#include "number_text.h"
 
 namespace sphparam {
 
@@ -79,11 +80,6 @@ std::string row(const std::string& name, const OneSidedDistance& side, double di
   return row(name, side.max, side.mean, side.rms, side.min, diagonal);
 }
 
-std::string place(const Vector3& point) {
-  return short_number(point.x(), 6) + " " + short_number(point.y(), 6) + " " +
-         short_number(point.z(), 6);
-}
-
 }  // namespace
 
 std::string to_json(const DistanceRecord& record) {
@@ -124,9 +120,9 @@ std::string to_text(const DistanceRecord& record) {
   text += row("2 to 1", distance.back, distance.diagonal_first);
   text += row("larger", distance.max(), distance.mean(), distance.rms(),
               std::max(distance.forth.min, distance.back.min), distance.diagonal_first);
-  text += "\nfarthest: " + place(distance.forth.farthest) + " of 1, " +
-          place(distance.back.farthest) + " of 2; no point is farther than " +
-          short_number(distance.max_bound(), 6) + "\n";
+  text += "\nfarthest: " + place_text(distance.forth.farthest, distance.diagonal_first, " ") +
+          " of 1, " + place_text(distance.back.farthest, distance.diagonal_second, " ") +
+          " of 2; no point is farther than " + short_number(distance.max_bound(), 6) + "\n";
   return text;
 }
 

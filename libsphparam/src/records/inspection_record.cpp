@@ -6,6 +6,7 @@
 #include "io/attributes/corner_colours.h"
 #include "io/inspected_source.h"
 #include "number_text.h"
+#include "place_text.h"
 #include "records/json_parts.h"
 #include "sphparam/io/fillers.h"
 #include "sphparam/io/paths.h"
@@ -38,9 +39,9 @@ std::string attributes(const MeshFile& file) {
   return words.empty() ? "none" : joined(words);
 }
 
-std::string point(const Vector3& p) {
-  return "(" + short_number(p.x(), figure_digits) + ", " + short_number(p.y(), figure_digits) +
-         ", " + short_number(p.z(), figure_digits) + ")";
+std::string box(const Vector3& lower, const Vector3& upper) {
+  const double length = (upper - lower).maxCoeff();
+  return "(" + place_text(lower, length) + ") to (" + place_text(upper, length) + ")";
 }
 
 /// "  label         value"
@@ -94,8 +95,7 @@ std::string figures(const MeshSource& source, const std::optional<ClosedHoles>& 
          line("triangles", std::to_string(mesh.faces) + triangulated) +
          line("edges", std::to_string(mesh.edges)) +
          line("components", std::to_string(mesh.components)) + line("topology", topology(mesh)) +
-         line("bounding box", point(mesh.lower) + " to " + point(mesh.upper)) +
-         filler_line(closed) +
+         line("bounding box", box(mesh.lower, mesh.upper)) + filler_line(closed) +
          line("area", short_number(closed ? closed->area : mesh.area, figure_digits)) +
          (mesh.boundary_loops > 0 ? ""  // an open mesh encloses none
                                   : line("volume", short_number(mesh.volume, figure_digits))) +
