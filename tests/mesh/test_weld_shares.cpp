@@ -72,4 +72,10 @@ TEST_CASE("weld_shares: a tenth of short edges, few single vertices and odd face
   mesh.triangles(0, 0) = 1 << 20;
   mesh.triangles(1, 1) = -3;
   CHECK(weld_shares(mesh) == weld_shares(shaken_apart(icosphere(3), 1e-5)));
+  // Faces that name a vertex twice have a side without length, which is no edge of a boundary.
+  const Eigen::Index faces = mesh.face_count();
+  mesh.triangles.conservativeResize(2 * faces, 3);
+  for (Eigen::Index f = faces; f < 2 * faces; ++f)
+    mesh.triangles.row(f) << mesh.triangles(f - faces, 2), mesh.triangles(f - faces, 2), 0;
+  CHECK(weld_shares(mesh) == weld_shares(shaken_apart(icosphere(3), 1e-5)));
 }

@@ -86,6 +86,9 @@ TEST_CASE("certificate: a reversed sphere is named as such") {
   CHECK(certificate.reversed);
   CHECK(certificate.covering == Approx(-1));
   CHECK_FALSE(certificate.bijective());
+  const Certificate of_nothing = certify_rays({}, {});
+  CHECK_FALSE(of_nothing.reversed);
+  CHECK_FALSE(of_nothing.bijective());
 }
 
 TEST_CASE("certificate: rays that are no directions are refused before any arithmetic") {

@@ -29,6 +29,12 @@ struct Boundary {
   double edge = 0;              // of its edges few are shorter
 };
 
+/// Of three vertices that are there.
+bool is_triangle(const TriangleMesh& mesh, Face f) {
+  const Vertex a = mesh.triangles(f, 0), b = mesh.triangles(f, 1), c = mesh.triangles(f, 2);
+  return is_inside(mesh.triangles, f, mesh.vertex_count()) && a != b && b != c && c != a;
+}
+
 Boundary boundary_of(const TriangleMesh& mesh) {
   const auto [lower, upper] = surface_box(mesh);
   const Vector3 middle = lower / 2 + upper / 2;
@@ -40,8 +46,8 @@ Boundary boundary_of(const TriangleMesh& mesh) {
   };
   std::vector<double> lengths;
   std::vector<Vertex> vertices;
-  const std::vector<FaceSide> sides = sorted_sides(
-      mesh.triangles, [&](Face f) { return is_inside(mesh.triangles, f, mesh.vertex_count()); });
+  const std::vector<FaceSide> sides =
+      sorted_sides(mesh.triangles, [&](Face f) { return is_triangle(mesh, f); });
   for_each_edge(sides, [&](size_t i, size_t j) {
     if (j - i != 1) return;
     lengths.push_back((place(sides[i].low) - place(sides[i].high)).norm());

@@ -238,7 +238,7 @@ Certificate certify(const Topology& topology, const SphereMap& map, int threads)
     probed.generic = probed.generic && chunk.count.generic;
   }
   certificate.covering = solid_angle_sum / (4 * std::numbers::pi);
-  certificate.reversed = static_cast<Face>(certificate.folded.size()) == faces;
+  certificate.reversed = faces > 0 && static_cast<Face>(certificate.folded.size()) == faces;
   if (certificate.fold_count() > 0) return certificate;
 
   // 3. All are positive: the map covers the sphere degree times; once, and it is one-to-one.

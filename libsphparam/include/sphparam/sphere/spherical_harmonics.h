@@ -80,10 +80,10 @@ constexpr double settled_quadrature = 1e-4;
 /// where the vertices determine them; same bits for any number of threads. Requires: a map that
 /// `certify` calls bijective, unit rays. Throws: std::invalid_argument for wrong sizes or options,
 /// or NaN; Cancelled. Cost: two transforms of #V points an iteration, few where triangles are small
-/// beside a wave; quadrature: a transform and a location of #F nodes, one of four times as many, and so on
-/// until they agree (`settled_quadrature`), 2 million nodes at most. Source: least squares:
-/// Brechbühler, Gerig and Kübler (1995), Section 4; conjugate gradients on the normal equations,
-/// and their start: our own.
+/// beside a wave; quadrature: a transform and a location of #F nodes, one of four times as many,
+/// and so on until they agree (`settled_quadrature`), 2 million nodes at most. Source: least
+/// squares: Brechbühler, Gerig and Kübler (1995), Section 4; conjugate gradients on the normal
+/// equations, and their start: our own.
 HarmonicFit fit_harmonics(const Topology& topology, const SphereMap& map, const Functions& values,
                           const HarmonicFitOptions& options = {});
 
