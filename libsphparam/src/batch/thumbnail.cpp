@@ -10,6 +10,7 @@
 
 #include "batch/png.h"
 #include "render/heat.h"
+#include "sphparam/io/up_axis.h"
 
 namespace sphparam {
 
@@ -31,6 +32,14 @@ VectorX area_ratios(const TriangleMesh& mesh, const Points& rays) {
     after[f] = double_area(rays, f);
   }
   return (after / after.sum()).cwiseQuotient(before / before.sum());
+}
+
+/// The mesh as its file says that it stands, z up.
+Points standing(const MeshFile& file) {
+  const UprightAxes axes = upright_axes(file);
+  Eigen::Matrix3d rows;
+  rows << axes.right().transpose(), -axes.front.transpose(), axes.up.transpose();
+  return file.mesh.positions * rows.transpose();
 }
 
 /// A square picture that fills itself with triangles.
@@ -120,7 +129,7 @@ std::string draw_thumbnail(const DrawnMesh& drawn, int pixels) {
   const TriangleMesh& mesh = drawn.file.mesh;
   const Points& rays = drawn.map.value().points;
   const VectorX ratios = area_ratios(mesh, rays);
-  std::array<Canvas, 2> canvases = {Canvas(pixels, mesh.positions), Canvas(pixels, rays)};
+  std::array<Canvas, 2> canvases = {Canvas(pixels, standing(drawn.file)), Canvas(pixels, rays)};
   for (Eigen::Index f = 0; f < mesh.face_count(); ++f) {
     const std::array<Vertex, 3> corners = {mesh.triangles(f, 0), mesh.triangles(f, 1),
                                            mesh.triangles(f, 2)};
