@@ -102,6 +102,18 @@ TEST_CASE("input hash: libraries of OBJ and their images count") {
   CHECK(in.counts("n.png", path));
 }
 
+TEST_CASE("input hash: images that comments of PLY name count") {
+  const Inputs in;
+  const std::string header =
+      "ply\r\ncomment TextureFile maps\\a b.png\r\ncomment TextureFile c.png";
+  const std::string path =
+      in.write("a.ply", header + "\r\nend_header\r\ncomment TextureFile d.png\n");
+  CHECK(in.counts("maps/a b.png", path));
+  CHECK(in.counts("c.png", path));
+  CHECK_FALSE(in.counts("d.png", path));
+  CHECK(in.counts("c.png", in.write("b.ply.gz", zip(header))));
+}
+
 TEST_CASE("input hash: a statement of OBJ over thousands of lines is read once") {
   const Inputs in;
   std::string text;

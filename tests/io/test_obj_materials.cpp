@@ -221,3 +221,60 @@ TEST_CASE("obj_materials: of several libraries the later one wins, and a missing
   REQUIRE(file.notes.size() == 1);
   CHECK(contains(file.notes[0], "'x.mtl' (No such file or directory)"));
 }
+
+TEST_CASE("obj_materials: keywords in any case are those that they are") {
+  const ObjFolder folder;
+  const MeshFile file = folder.read_with(
+      "mtllib a.mtl", "NEWMTL red\nkd 1 0.25 0\nTR 0.5\nnewmtl wood\nmap_kd w.png\nKS 1 1 1\n");
+  CHECK(file.base_colours.at(0).factor == std::array<double, 4>{1, 0.25, 0, 0.5});
+  CHECK(file.base_colours.at(1).image == "w.png");
+  CHECK(file.notes == std::vector<std::string>{"not carried: highlights of 1 of 2 materials"});
+}
+
+TEST_CASE("obj_materials: names that differ in case from the one file there are taken, and told") {
+  const ObjFolder folder;
+  folder.write("Maps/Page 1.JPG", "");
+  folder.write("Lib.MTL", "newmtl wood\nmap_Kd maps\\page 1.jpg\nnewmtl red\nmap_Kd w.png\n");
+  const MeshFile file = folder.read_with("mtllib lib.mtl");
+  REQUIRE(file.base_colours.size() == 2);
+  CHECK(file.base_colours[1].image == "Maps/Page 1.JPG");
+  CHECK(file.base_colours[1].path == "Maps/Page 1.JPG");
+  CHECK(file.base_colours[1].problem.empty());
+  CHECK(file.companions == std::vector<std::string>{(folder.path() / "Lib.MTL").string()});
+  CHECK(file.notes ==
+        std::vector<std::string>{"names of files that differ in case on the disk: 'lib.mtl' is "
+                                 "'Lib.MTL' and 'maps/page 1.jpg' is 'Maps/Page 1.JPG'"});
+}
+
+TEST_CASE("obj_materials: a file that may be meant by a name that none has is named") {
+  const ObjFolder folder;
+  const auto wood = [&](const std::string& name) {
+    return folder.read_with("mtllib a.mtl", "newmtl wood\nmap_Kd " + name + "\n")
+        .base_colours.at(1);
+  };
+  CHECK(wood("page.jpg").problem.empty());
+  folder.write("Page.png", "");
+  CHECK(wood("page.jpg").problem == "there is no file of that name; beside it is 'Page.png'");
+  folder.write("PAGE.jpg", "");
+  CHECK(wood("page.jpg").path == "PAGE.jpg");
+  folder.write("Page.jpg", "");
+  CHECK(wood("page.jpg").path == "page.jpg");
+  CHECK(wood("page.jpg").problem ==
+        "there is no file of that name; beside it are 'PAGE.jpg' and 'Page.jpg'");
+  folder.write("page.jpg", "");
+  CHECK(wood("page.jpg").problem.empty());
+}
+
+TEST_CASE("obj_materials: quotes about a name are none of it, where no file is called so") {
+  const ObjFolder folder;
+  const auto wood = [&](const std::string& name) {
+    return folder.read_with("mtllib a.mtl", "newmtl wood\nmap_Kd " + name + "\n")
+        .base_colours.at(1)
+        .path;
+  };
+  CHECK(wood("\"my wood.png\"") == "my wood.png");
+  CHECK(wood("'w.png'") == "w.png");
+  CHECK(wood("\"w.png'") == "\"w.png'");
+  folder.write("'w.png'", "");
+  CHECK(wood("'w.png'") == "'w.png'");
+}

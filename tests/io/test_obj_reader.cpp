@@ -186,9 +186,9 @@ TEST_CASE(
         std::vector<std::string>{
             "not carried: colours and textures of 2 materials in 'a.mtl', which is not read; their "
             "names are",
-            "not carried: the names of 2 objects"});
-  CHECK(
-      read("mtllib a.mtl\no x\ng x\ns 1\n" + three_vertices + "f 1 2 3\n", "a.obj").notes.empty());
+            "not carried: the names of 2 objects, 1 group and 1 smoothing group"});
+  CHECK(read("mtllib a.mtl\no Fox\ns off\ng default\n" + three_vertices + "f 1 2 3\n", "a.obj")
+            .notes == std::vector<std::string>{"not carried: the names of 1 object"});
 }
 
 TEST_CASE(
@@ -210,8 +210,9 @@ TEST_CASE("obj_reader: other statements are ignored, lines and points told") {
       read("# made by\n#\n" + three_vertices + "o a\ng b c\ns off\nf 1 2 3\nl 1 2\nl 2 3\np 1\n",
            "a.obj");
   CHECK(file.comments == std::vector<std::string>{"made by", ""});
-  CHECK(file.notes ==
-        std::vector<std::string>{"not carried: 2 'l' statements", "not carried: 1 'p' statement"});
+  CHECK(file.notes == std::vector<std::string>{"not carried: the names of 1 object and 1 group",
+                                               "not carried: 2 'l' statements",
+                                               "not carried: 1 'p' statement"});
 }
 
 TEST_CASE("obj_reader: what breaks the rules is refused at its line") {
@@ -273,4 +274,23 @@ TEST_CASE(
   CHECK(file.mesh.positions(1, 2) == 0);
   CHECK(file.mesh.positions(2, 2) == 3);
   CHECK(file.mesh.positions(3, 2) == 3);
+}
+
+TEST_CASE("obj_reader: comments between and behind the statements are kept, the first thousand") {
+  const MeshFile file = read(
+      "# head\n" + three_vertices + "# ear restored\n\n  #\nf 1 2 3 # of a line\n# end", "a.obj");
+  CHECK(file.comments == std::vector<std::string>{"head", "ear restored", "", "end"});
+  std::string many = "# head\n" + three_vertices;
+  for (int i = 0; i < 1002; ++i) many += "# " + std::to_string(i) + "\nf 1 2 3\n";
+  const MeshFile first = read(many, "a.obj");
+  CHECK(first.comments.size() == 1001);
+  CHECK(first.comments.back() == "999");
+  CHECK(first.notes == std::vector<std::string>{"not carried: 2 comments behind the first 1000"});
+}
+
+TEST_CASE("obj_reader: third texture coordinates are told where they say something") {
+  const std::string faces = "vt 0 0 0\nvt 1 0 0\nvt 0 1 0.5\nf 1/1 2/2 3/3\n";
+  CHECK(read(three_vertices + faces, "a.obj").notes ==
+        std::vector<std::string>{"not carried: third texture coordinates"});
+  CHECK(read(three_vertices + replaced(faces, "0.5", "0"), "a.obj").notes.empty());
 }

@@ -3,8 +3,12 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
+#include <fstream>
 
+#include "folder.h"
 #include "reading.h"
+#include "sphparam/io/losses.h"
+#include "sphparam/io/mesh_writer.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;
@@ -406,4 +410,136 @@ TEST_CASE("ply_reader: a face is budgeted with three corners, in text and in byt
   const std::string text = "ply\nformat ascii 1.0\n" + header + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
   CHECK(read(text + "3 0 2 1").mesh.face_count() == 2);
   CHECK(contains(complaint(text + "3 0 2 "), "2 records of element 'face' do not fit"));
+}
+
+// --- Images that comments name ---
+
+namespace {
+
+const std::string two_pages =
+    "ply\nformat ascii 1.0\ncomment TextureFile p0.png\ncomment scanned\n"
+    "comment TextureFile  maps\\p1.png\nelement vertex 3\nproperty float x\nproperty float y\n"
+    "property float z\nelement face 3\nproperty list uchar int vertex_indices\n"
+    "property list uchar float texcoord\nproperty int texnumber\nend_header\n"
+    "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 6 0 0 1 0 0 1 1\n3 2 1 0 6 0 1 1 0 0 0 0\n"
+    "3 1 0 2 6 1 0 0 0 0 1 2\n";
+
+struct PlyFolder : Folder {
+  MeshFile read(const std::string& text) const {
+    write("a.ply", text);
+    return read_mesh(file("a.ply"));
+  }
+  void write(const std::string& name, const std::string& text) const {
+    std::filesystem::create_directories((path / name).parent_path());
+    std::ofstream(path / name, std::ios::binary) << text;
+  }
+};
+
+std::vector<std::string> images_of(const MeshFile& file) {
+  std::vector<std::string> images;
+  for (const MaterialTexture& colour : file.base_colours) images.push_back(colour.image);
+  return images;
+}
+
+using Words = std::vector<std::string>;
+
+}  // namespace
+
+TEST_CASE("ply_reader: TextureFile comments are materials, a face's by its texnumber") {
+  const PlyFolder folder;
+  const MeshFile file = folder.read(two_pages);
+  CHECK(file.materials == Words{"p0.png", "maps\\p1.png"});
+  CHECK(images_of(file) == Words{"p0.png", "maps/p1.png"});
+  CHECK(file.base_colours[1].path == "maps/p1.png");
+  CHECK(file.base_colours[1].folder == folder.path.string());
+  REQUIRE(file.channels.size() == 2);
+  CHECK(file.channels[0].metallic.factor[0] == 0);
+  CHECK(values_of(file.find_face_property("material")) == std::vector<double>{1, 0, -1});
+  CHECK(values_of(file.find_face_property("texnumber")) == std::vector<double>{1, 0, 2});
+  CHECK(file.comments == Words{"TextureFile p0.png", "scanned", "TextureFile  maps\\p1.png"});
+  CHECK(file.notes.empty());
+  // All faces are of the first without numbers; where no folder is known, nothing is.
+  const MeshFile one = folder.read(replaced(two_pages, "texnumber", "other"));
+  CHECK(values_of(one.find_face_property("material")) == std::vector<double>{0, 0, 0});
+  CHECK(read(two_pages).materials.empty());
+  CHECK(read(two_pages).base_colours.empty());
+}
+
+TEST_CASE("ply_reader: coordinates of vertices do for images; without any they are told") {
+  const PlyFolder folder;
+  const std::string text =
+      "ply\nformat ascii 1.0\ncomment TextureFile p0.png\nelement vertex 3\nproperty float x\n"
+      "property float y\nproperty float z\nproperty float texture_u\nproperty float texture_v\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+      "0 0 0 0.25 0\n1 0 0 1 0\n0 1 0 0 1\n3 0 1 2\n";
+  const MeshFile file = folder.read(text);
+  CHECK(images_of(file) == Words{"p0.png"});
+  CHECK(values_of(file.find_vertex_property("s")) == std::vector<double>{0.25, 1, 0});
+  const MeshFile none = folder.read(replaced(text, "texture_", "other_"));
+  CHECK(none.materials.empty());
+  CHECK(none.notes == Words{"not carried: the texture p0.png: there are no coordinates for it"});
+}
+
+TEST_CASE("ply_reader: images of our own files are those of the materials, where they are there") {
+  const PlyFolder folder;
+  folder.write("p0.png", "");
+  folder.write("maps/p1.png", "");
+  const MeshFile read_first = folder.read(two_pages);
+  write_mesh(folder.file("b.ply"), read_first);
+  const MeshFile again = read_mesh(folder.file("b.ply"));
+  CHECK(again.comments == read_first.comments);
+  CHECK(again.materials == read_first.materials);
+  CHECK(images_of(again) == images_of(read_first));
+  CHECK(values_of(again.find_face_property("material")) == std::vector<double>{1, 0, -1});
+  CHECK(losses_of_writing(read_first, read(serialise_mesh("c.ply", read_first))).empty());
+  CHECK(losses_of_writing(read_first, read(serialise_mesh("c.obj", read_first), "c.obj")) ==
+        Words{"not carried: texnumber of faces", "not carried: colours and textures of materials"});
+  std::filesystem::remove(folder.path / "p0.png");
+  CHECK(read_mesh(folder.file("b.ply")).base_colours.empty());
+  CHECK(images_of(folder.read(two_pages)) == Words{"p0.png", "maps/p1.png"});
+}
+
+TEST_CASE("ply_reader: obj_info lines are comments, which is noted") {
+  const MeshFile file =
+      read(replaced(tetrahedron_ply, "ascii 1.0\n", "ascii 1.0\nobj_info by x\n"));
+  CHECK(file.comments == Words{"by x"});
+  CHECK(file.notes == Words{"1 obj_info line is kept as a comment"});
+}
+
+TEST_CASE("ply_reader: colours are read as programs write them") {
+  const auto with_colours = [](const std::string& head, const std::string& type,
+                               const std::string& a, const std::string& b) {
+    const std::string property = "property " + type + " " + head;
+    return read(
+        "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+        "property float z\n" +
+        property + "red\n" + property + "green\n" + property + "blue\nend_header\n0 0 0 " + a +
+        "\n1 0 0 " + b + "\n");
+  };
+  const auto of = [](const MeshFile& file, const char* name) {
+    const Property* const colour = file.find_vertex_property(name);
+    return std::pair(colour ? colour->type : ScalarType::Int8, values_of(colour));
+  };
+  using Values = std::vector<double>;
+  const MeshFile diffuse = with_colours("diffuse_", "uchar", "200 30 0", "1 0 255");
+  CHECK(of(diffuse, "red") == std::pair(ScalarType::Uint8, Values{200, 1}));
+  CHECK(of(diffuse, "blue") == std::pair(ScalarType::Uint8, Values{0, 255}));
+  CHECK(diffuse.notes ==
+        Words{"diffuse_red, diffuse_green and diffuse_blue are the colours of vertices"});
+  const MeshFile whole = with_colours("", "float", "200 30.0 0", "1 0 0");
+  CHECK(of(whole, "red") == std::pair(ScalarType::Uint8, Values{200, 1}));
+  CHECK(of(whole, "blue") == std::pair(ScalarType::Uint8, Values{0, 0}));
+  CHECK(whole.notes == Words{"colours of vertices are real numbers up to 255"});
+  const MeshFile halves = with_colours("", "float", "127.5 51 0", "1 0 255");
+  CHECK(of(halves, "red") ==
+        std::pair(ScalarType::Float32,
+                  Values{0.5, static_cast<double>(static_cast<float>(1.0 / 255))}));
+  CHECK(of(halves, "blue") == std::pair(ScalarType::Float32, Values{0, 1}));
+  // Brighter than white in one channel, and beyond what a byte says.
+  for (const MeshFile& file : {with_colours("", "float", "1.5 0.5 0", "1 0 1"),
+                               with_colours("", "float", "300 30 2", "1 0 0"),
+                               with_colours("", "float", "1 0 1", "1 0 0")}) {
+    CHECK(file.find_vertex_property("red")->type == ScalarType::Float32);
+    CHECK(file.notes.empty());
+  }
 }

@@ -14,6 +14,8 @@
 #include <vector>
 
 #include "batch/content_hash.h"
+#include "io/attributes/named_file.h"
+#include "io/attributes/texture_pages.h"
 #include "io/files/file_bytes.h"
 #include "io/files/gzip.h"
 #include "io/formats/gltf/gltf_container.h"
@@ -21,6 +23,7 @@
 #include "io/formats/gltf/gltf_reader.h"
 #include "io/formats/obj_materials.h"
 #include "io/formats/obj_reader.h"
+#include "io/formats/ply_reader.h"
 #include "io/formats/scene_reader.h"
 #include "sphparam/io/paths.h"
 
@@ -46,6 +49,8 @@ class NamedFiles {
     } else if (looks_like_fbx(bytes)) {
       for (const char* const mark : {"Filename", "FileName"})
         find_behind(bytes, mark, [&](std::string_view rest) { add_picture(text_of_fbx(rest)); });
+    } else if (looks_like_ply(bytes)) {
+      find_pages(bytes.substr(0, bytes.find("\nend_header")));
     } else if (looks_like_obj(bytes)) {
       find_libraries(bytes);
     }
@@ -138,6 +143,15 @@ class NamedFiles {
     add_uri(path);
   }
 
+  /// In the comments of the header.
+  void find_pages(std::string_view header) {
+    find_behind(header, std::string("comment ") + texture_page_comment, [&](std::string_view rest) {
+      MeshFile named;
+      named.comments = {texture_page_comment + std::string(up_to(rest, "\n"))};
+      for (const std::string& page : texture_pages(named)) add(file_below(folder_, {}, page).path);
+    });
+  }
+
   void find_libraries(std::string_view bytes) {
     std::vector<std::string> libraries;
     std::set<std::string> seen;
@@ -181,7 +195,7 @@ class NamedFiles {
 
 /// Of what a file holds, where that is packed too. Formats that name no files need no unpacking.
 NamedFiles files_named_in(std::string_view bytes, const std::string& path) {
-  constexpr std::string_view naming[] = {".gltf", ".glb", ".obj", ".dae", ".fbx"};
+  constexpr std::string_view naming[] = {".gltf", ".glb", ".obj", ".ply", ".dae", ".fbx"};
   if (!looks_like_gzip(bytes)) return {bytes, path};
   if (std::ranges::count(naming, inner_extension_of(path)) == 0) return {"", path};
   try {

@@ -24,8 +24,8 @@ constexpr char material_name[] = "sphparam";
 
 bool is_made_anew(const std::string& name) {
   static const std::vector<std::string> names = {
-      "sx", "sy", "sz", "theta",    "phi",           "nx",         "ny",
-      "nz", "s",  "t",  "material", "source_vertex", "source_face"};
+      "sx", "sy", "sz", "theta",    "phi",           "nx",          "ny",
+      "nz", "s",  "t",  "material", "source_vertex", "source_face", "texnumber"};
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "io/attributes/corner_colours.h"
+#include "io/attributes/texture_pages.h"
 #include "number_text.h"
 #include "sphparam/io/file_numbers.h"
 
@@ -59,6 +60,28 @@ void compare_positions(const MeshFile& written, const MeshFile& read,
                        ": coordinates there have 32 bits");
 }
 
+/// The name of a face's material; empty for none.
+std::string material_of(const MeshFile& file, const Property& materials, std::size_t face) {
+  const double id = materials.values[face];
+  const bool is_one = id >= 0 && id < static_cast<double>(file.materials.size());
+  return is_one ? file.materials[static_cast<std::size_t>(id)] : "";
+}
+
+/// By their names: formats number them anew.
+bool have_same_materials(const MeshFile& written, const MeshFile& read) {
+  const Property* const before = written.find_face_property("material");
+  const Property* const after = read.find_face_property("material");
+  if (!before || !after || before->values.size() != after->values.size()) return false;
+  for (std::size_t f = 0; f < before->values.size(); ++f)
+    if (material_of(written, *before, f) != material_of(read, *after, f)) return false;
+  return true;
+}
+
+/// A PLY file names the images of its texture by its comments; they were there when it was read.
+bool still_names_pages(const MeshFile& read) {
+  return read.format.starts_with("PLY") && has_texture_pages(read);
+}
+
 }  // namespace
 
 void add_loss(std::vector<std::string>& notes, const std::string& what) {
@@ -79,7 +102,10 @@ std::vector<std::string> losses_of_writing(const MeshFile& written, const MeshFi
     if (!names.empty()) add_loss(losses, enumerated(names) + " of " + whose);
   };
   tell(gone(written.vertex_properties, read.vertex_properties, read, renamed), "vertices");
-  tell(gone(written.face_properties, read.face_properties, read, renamed), "faces");
+  std::vector<std::string> of_faces =
+      gone(written.face_properties, read.face_properties, read, renamed);
+  if (have_same_materials(written, read)) std::erase(of_faces, "material");
+  tell(of_faces, "faces");
   tell(renamed, "properties whose numbers are kept without their names");
   const auto has_any = [&](const MeshFile& file, const char* name) {
     return file.find_vertex_property(name) != nullptr;
@@ -95,7 +121,7 @@ std::vector<std::string> losses_of_writing(const MeshFile& written, const MeshFi
   if (written.corner_tangents && !read.corner_tangents) add_loss(losses, "tangents");
   if (written.materials.size() > read.materials.size())
     add_loss(losses, counted(static_cast<long>(written.materials.size()), "material"));
-  if (!written.base_colours.empty() && read.base_colours.empty())
+  if (!written.base_colours.empty() && read.base_colours.empty() && !still_names_pages(read))
     add_loss(losses, "colours and textures of materials");
   const auto lines = [](const MeshFile& file) {
     return std::count_if(file.comments.begin(), file.comments.end(), [](const std::string& line) {

@@ -123,7 +123,7 @@ constexpr MeshFormat formats[] = {
      {".ply"},
      magic,
      looks_like_ply,
-     read<read_ply>,
+     read_scene_files<read_ply>,
      write<write_ply>,
      with_map,
      spheres_in_doubles},

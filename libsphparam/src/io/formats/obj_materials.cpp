@@ -8,6 +8,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "io/attributes/named_file.h"
 #include "io/files/text_scanner.h"
 #include "io/formats/gltf/gltf_files.h"
 #include "number_text.h"
@@ -42,27 +43,33 @@ int words_after(std::string_view option) {
   return option == "-mm" ? 2 : 1;
 }
 
-/// The path as a file of its own folder, where that can be said of it at all.
-fs::path path_below(std::string text) {
-  std::replace(text.begin(), text.end(), '\\', '/');
-  const fs::path path(text);
-  const bool elsewhere = path.is_absolute() || text.find(':') < text.find('/') ||
-                         std::find(path.begin(), path.end(), "..") != path.end();
-  return elsewhere ? path.filename() : path;
+/// As keywords are meant, whatever their case.
+std::string in_lower_case(std::string_view word) {
+  std::string text(word);
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
 }
+
+/// Files that were taken though their names differ in case, in words.
+using TakenNames = std::set<std::string>;
 
 class Library {
  public:
   Library(std::string_view text, const std::string& name, const fs::path& folder,
           const fs::path& images, const ReadOptions& options,
-          std::map<std::string, Material>& known)
-      : scanner_(text, name, options), folder_(folder), images_(images), known_(known) {
+          std::map<std::string, Material>& known, TakenNames& taken)
+      : scanner_(text, name, options),
+        folder_(folder),
+        images_(images),
+        known_(known),
+        taken_(taken) {
     scanner_.require_text();
   }
 
   void read() {
     while (scanner_.next_line())
-      if (!scanner_.at_line_end()) read_line(std::string(scanner_.word()));
+      if (!scanner_.at_line_end()) read_line(in_lower_case(scanner_.word()));
   }
 
  private:
@@ -77,32 +84,32 @@ class Library {
 
   void read_statement(const std::string& keyword) {
     MaterialChannels& channels = material_->channels;
-    if (keyword == "Kd") return set_colour(material_->diffuse, 1);
-    if (keyword == "Ke") return set_emission();
-    if (keyword == "d" || keyword == "Tr") return set_alpha(keyword == "Tr");
-    if (keyword == "Pr") return set_number(channels.roughness.factor[0]);
-    if (keyword == "Pm") return set_number(channels.metallic.factor[0]);
-    if (keyword == "map_Kd") return set_image(material_->colour);
-    if (keyword == "map_Ke") return set_image(channels.emission);
-    if (keyword == "map_Pr") return set_image(channels.roughness);
-    if (keyword == "map_Pm") return set_image(channels.metallic);
-    if (keyword == "norm" || keyword == "map_Kn") return set_normals();
-    if (keyword == "bump" || keyword == "map_bump" || keyword == "map_Bump") return set_bump();
+    if (keyword == "kd") return set_colour(material_->diffuse, 1);
+    if (keyword == "ke") return set_emission();
+    if (keyword == "d" || keyword == "tr") return set_alpha(keyword == "tr");
+    if (keyword == "pr") return set_number(channels.roughness.factor[0]);
+    if (keyword == "pm") return set_number(channels.metallic.factor[0]);
+    if (keyword == "map_kd") return set_image(material_->colour);
+    if (keyword == "map_ke") return set_image(channels.emission);
+    if (keyword == "map_pr") return set_image(channels.roughness);
+    if (keyword == "map_pm") return set_image(channels.metallic);
+    if (keyword == "norm" || keyword == "map_kn") return set_normals();
+    if (keyword == "bump" || keyword == "map_bump") return set_bump();
     if (keyword == "map_d") return set_image(channels.opacity);
-    if (keyword == "Pc") return set_number(channels.finish.clearcoat);
-    if (keyword == "Pcr") return set_number(channels.finish.clearcoat_roughness);
-    if (keyword == "Ps") return set_sheen();
+    if (keyword == "pc") return set_number(channels.finish.clearcoat);
+    if (keyword == "pcr") return set_number(channels.finish.clearcoat_roughness);
+    if (keyword == "ps") return set_sheen();
     static constexpr std::pair<std::string_view, const char*> said_beside[] = {
-        {"Ks", "highlights"},
-        {"map_Ks", "highlights"},
-        {"map_Ns", "highlights"},
+        {"ks", "highlights"},
+        {"map_ks", "highlights"},
+        {"map_ns", "highlights"},
         {"disp", "displacement"},
         {"map_disp", "displacement"},
-        {"map_Ps", "textures of sheen"},
-        {"map_Pc", "textures of clear coat"},
-        {"map_Pcr", "textures of clear coat"},
+        {"map_ps", "textures of sheen"},
+        {"map_pc", "textures of clear coat"},
+        {"map_pcr", "textures of clear coat"},
         {"aniso", "anisotropy"},
-        {"map_Ka", "ambient textures"}};
+        {"map_ka", "ambient textures"}};
     for (const auto& [word, what] : said_beside)
       if (keyword == word && !is_black()) material_->others.insert(what);
   }
@@ -172,10 +179,12 @@ class Library {
     while (scanner_.peek_word().starts_with("-")) read_option(colour);
     const std::string written = one_line(scanner_.rest());
     if (written.empty()) return;
-    const fs::path path = path_below(written);
-    colour.image = path.string();
-    colour.path = (images_ / path).string();
+    const NamedFile file = file_below(folder_, images_, written);
+    colour.image = file.path.string();
+    colour.path = (images_ / file.path).string();
     colour.folder = folder_.string();
+    if (!file.problem.empty()) colour.problem = file.problem;
+    if (!file.taken.empty()) taken_.insert(file.taken);
   }
 
   /// -s is how often the image is there along s and t, -o is added.
@@ -202,6 +211,7 @@ class Library {
   TextScanner scanner_;
   const fs::path &folder_, &images_;
   std::map<std::string, Material>& known_;
+  TakenNames& taken_;
   Material* material_ = nullptr;
 };
 
@@ -218,15 +228,17 @@ std::vector<std::string> names_in(const std::string& statement) {
 }
 
 void read_library(const std::string& statement, const fs::path& folder, const ReadOptions& options,
-                  std::map<std::string, Material>& known, std::vector<std::string>& problems) {
+                  std::map<std::string, Material>& known, std::vector<std::string>& problems,
+                  TakenNames& taken) {
   const std::vector<std::string> names = names_in(statement);
   for (const std::string& name : names) {
     try {
-      const fs::path path = path_below(name);
+      const NamedFile file = file_below(folder, {}, name);
       const auto bytes =
-          read_below(folder, path, static_cast<std::uint64_t>(options.max_file_bytes));
+          read_below(folder, file.path, static_cast<std::uint64_t>(options.max_file_bytes));
+      if (!file.taken.empty()) taken.insert(file.taken);
       Library({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name, folder,
-              path.parent_path(), options, known)
+              file.path.parent_path(), options, known, taken)
           .read();
       if (name == statement) return;
     } catch (const std::runtime_error& error) {
@@ -276,7 +288,7 @@ std::vector<std::string> library_files(const std::vector<std::string>& libraries
   for (const std::string& statement : libraries) {
     for (const std::string& name : names_in(statement)) {
       std::error_code hidden;
-      const fs::path path = folder / path_below(name);
+      const fs::path path = folder / file_below(folder, {}, name).path;
       if (fs::is_regular_file(path, hidden)) files.push_back(path.string());
     }
   }
@@ -287,8 +299,9 @@ std::vector<std::string> library_images(const std::vector<std::string>& librarie
                                         const fs::path& folder, const ReadOptions& options) {
   std::map<std::string, Material> known;
   std::vector<std::string> images, unused;
+  TakenNames taken;
   for (const std::string& statement : libraries)
-    read_library(statement, folder, options, known, unused);
+    read_library(statement, folder, options, known, unused, taken);
   const auto add = [&](const MaterialTexture& texture) {
     if (!texture.path.empty()) images.push_back(texture.path);
   };
@@ -303,9 +316,11 @@ ObjMaterials read_obj_materials(const std::vector<std::string>& names,
                                 const std::vector<std::string>& libraries, const fs::path& folder,
                                 const ReadOptions& options) {
   ObjMaterials result;
+  TakenNames taken;
   std::map<std::string, Material> known;
   for (const std::string& statement : libraries)
-    read_library(statement, folder, options, known, result.problems);
+    read_library(statement, folder, options, known, result.problems, taken);
+  result.taken.assign(taken.begin(), taken.end());
   const auto is_known = [&](const std::string& name) { return known.contains(name); };
   if (std::ranges::none_of(names, is_known)) return result;
   std::set<std::string> others;

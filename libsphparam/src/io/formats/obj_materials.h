@@ -24,6 +24,7 @@ struct ObjMaterials {
   long with_others = 0;                        // materials that say such things
   std::vector<std::string> unknown;            // names that no library has
   std::vector<std::string> problems;           // libraries that could not be read, and why
+  std::vector<std::string> taken;  // "'a.jpg' is 'A.JPG'": files of a name in other case
 };
 
 /// Reads them in their order from below `folder`: of Kd, d, Tr and map_Kd the base colour, of Ke
@@ -31,8 +32,8 @@ struct ObjMaterials {
 /// map. Where there is an image, Kd and a black Ke are not multiplied with it: exporters write a
 /// grey there that nobody sees, and no Ke beside map_Ke; a Kd with a hue there is told. Kd and Ke
 /// are linear light. Below d 1 alpha blends. Without Pr and Pm surfaces are rough and no metal.
-/// Names of images that lead elsewhere (absolute, Windows drives, `..`) are looked for beside the
-/// library. Images are not opened. Materials that no library has are white. Never throws for what
+/// Keywords may be in any case. Images are looked for beside the library, as `file_below` does, and
+/// not opened. Materials that no library has are white. Never throws for what
 /// the libraries hold: the mesh is there without them.
 ObjMaterials read_obj_materials(const std::vector<std::string>& names,
                                 const std::vector<std::string>& libraries,

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "io/attributes/material_comments.h"
+#include "io/attributes/named_file.h"
 #include "io/files/text_scanner.h"
 #include "io/formats/obj_materials.h"
 #include "number_text.h"
@@ -101,8 +102,7 @@ class ObjReader {
  private:
   void read_line() {
     if (scanner_.at_line_end()) {
-      if (in_header_ && scanner_.at_comment())
-        file_.comments.push_back(one_line(scanner_.comment()));
+      if (scanner_.at_comment()) read_comment();
       return;
     }
     in_header_ = false;
@@ -114,6 +114,12 @@ class ObjReader {
     if (keyword == "vn") return read_normal();
     if (keyword == "usemtl") return read_material();
     read_ignored(std::string(keyword));
+  }
+
+  /// Some programs write one a face.
+  void read_comment() {
+    if (!in_header_ && ++later_comments_ > most_later_comments) return;
+    file_.comments.push_back(one_line(scanner_.comment()));
   }
 
   void read_vertex() {
@@ -144,7 +150,7 @@ class ObjReader {
   void read_texcoord() {
     const double s = scanner_.real();
     const double t = scanner_.at_line_end() ? 0 : scanner_.real();
-    if (!scanner_.at_line_end()) scanner_.real();  // the third coordinate of volume textures
+    if (!scanner_.at_line_end()) depths_ |= scanner_.real() != 0;  // of volume textures
     expect_line_end();
     texcoord_values_.insert(texcoord_values_.end(), {s, t});
     ++texcoords_.count;
@@ -387,6 +393,10 @@ class ObjReader {
     note_groups();
     for (const auto& [keyword, count] : ignored_)
       add_loss(file_.notes, counted(count, "'" + keyword + "' statement"));
+    if (depths_) add_loss(file_.notes, "third texture coordinates");
+    if (later_comments_ > most_later_comments)
+      add_loss(file_.notes, counted(later_comments_ - most_later_comments, "comment") +
+                                " behind the first " + std::to_string(most_later_comments));
     if (weights_) add_loss(file_.notes, "fourth coordinates of vertices (weights)");
     if (unknown_ > 0)
       add_loss(file_.notes, counted(unknown_, "unknown statement") + ", the first " +
@@ -416,6 +426,7 @@ class ObjReader {
     if (!read.unknown.empty())
       add_loss(file_.notes, "what no library has: materials " +
                                 enumerated(quoted_all(read.unknown)) + " are white");
+    note_taken_names(file_, read.taken);
     if (read.with_others > 0)
       add_loss(file_.notes, enumerated(read.others) + " of " + std::to_string(read.with_others) +
                                 " of " + materials);
@@ -427,34 +438,37 @@ class ObjReader {
     return all;
   }
 
-  /// One group that holds everything says nothing.
+  /// What stands for none says nothing.
   void note_groups() {
     static constexpr std::pair<const char*, const char*> kinds[] = {
         {"o", "object"}, {"g", "group"}, {"s", "smoothing group"}};
+    static constexpr std::string_view none[] = {"off", "0", "default", "(null)"};
+    const auto is_none = [](const auto& name) { return std::ranges::count(none, name) > 0; };
     std::vector<std::string> words;
     for (const auto& [keyword, what] : kinds) {
       std::set<std::string>& names = names_[keyword].distinct;
-      if (*keyword == 's')
-        std::erase_if(names, [](auto& name) { return name == "off" || name == "0"; });
-      if (names.size() > 1) words.push_back(counted(static_cast<long>(names.size()), what));
+      std::erase_if(names, is_none);
+      if (!names.empty()) words.push_back(counted(std::ssize(names), what));
     }
     if (!words.empty()) add_loss(file_.notes, "the names of " + enumerated(words));
   }
 
+  static constexpr long most_later_comments = 1000;
   static constexpr std::int64_t most_vertices = std::numeric_limits<int>::max();
 
   TextScanner scanner_;
   const std::optional<std::filesystem::path>& folder_;  // of libraries
   const ReadOptions& options_;
   bool in_header_ = true;  // only comments so far
+  long later_comments_ = 0;
 
   IndexedKind vertices_{"vertex", 0, {}}, texcoords_{"texture coordinate", 0, {}},
       normals_{"normal", 0, {}};
   std::vector<double> positions_, texcoord_values_, normal_values_;
   std::vector<float> colours_;
   std::size_t colour_channels_ = 0;
-  std::int64_t coloured_ = 0;  // vertices with that many channels
-  bool weights_ = false;
+  std::int64_t coloured_ = 0;              // vertices with that many channels
+  bool weights_ = false, depths_ = false;  // beyond x y z and s t
 
   Polygons polygons_;
   long first_zero_line_ = 0;  // of a face that names vertex 0; 0: none does

@@ -82,6 +82,7 @@ class HeaderParser {
     const std::string_view keyword = words.next();
     if (keyword == "comment" || keyword == "obj_info") {
       header_.comments.emplace_back(words.rest());
+      header_.infos += keyword == "obj_info";
       return true;
     }
     if (keyword == "end_header") return expect_end(words), false;

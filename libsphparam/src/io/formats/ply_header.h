@@ -39,6 +39,7 @@ struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::Ascii;
   std::vector<PlyElement> elements;
   std::vector<std::string> comments;  // and obj_info lines, without the keyword
+  long infos = 0;                     // how many of them are obj_info lines
   std::size_t body_offset = 0;        // bytes
   long body_line = 1;                 // number of the first line of the body
 

@@ -11,6 +11,8 @@
 #include <set>
 #include <utility>
 
+#include "io/attributes/other_colours.h"
+#include "io/attributes/texture_pages.h"
 #include "io/files/non_finite_advice.h"
 #include "io/files/text_scanner.h"
 #include "io/formats/ply_header.h"
@@ -49,7 +51,8 @@ class TextBody {
 
   void end() {
     if (!scanner_.at_line_end())
-      scanner_.fail("unexpected " + quoted(scanner_.peek_word()) + " at the end of the line");
+      scanner_.fail("unexpected " + sphparam::quoted(scanner_.peek_word()) +
+                    " at the end of the line");
   }
 
   double coordinate(ScalarType type) {
@@ -265,7 +268,7 @@ class PlyReader {
     constexpr std::int64_t hard_limit = std::numeric_limits<int>::max() / 3;  // ids are ints
     if (element.count > std::min(limit, hard_limit))
       fail_at(element.line, std::to_string(element.count) + " records of element " +
-                                quoted(element.name) + " are over the limit of " +
+                                sphparam::quoted(element.name) + " are over the limit of " +
                                 std::to_string(std::min(limit, hard_limit)));
   }
 
@@ -343,8 +346,8 @@ class PlyReader {
       if (std::find(handled.begin(), handled.end(), property.name) != handled.end()) continue;
       if (!is_wanted(element, property)) continue;
       if (property.is_list)
-        add_loss(file_.notes,
-                 "list " + quoted(property.name) + " of element " + quoted(element.name));
+        add_loss(file_.notes, "list " + sphparam::quoted(property.name) + " of element " +
+                                  sphparam::quoted(element.name));
       else
         result.push_back({property.name, property.type,
                           std::vector<double>(static_cast<std::size_t>(element.count))});
@@ -366,8 +369,8 @@ class PlyReader {
     for (const Property& property : properties) {
       const auto missing = count_non_finite(property);
       if (missing == 0) continue;
-      const std::string what = "property " + quoted(property.name) + " of element " +
-                               quoted(element.name) + ": it has " +
+      const std::string what = "property " + sphparam::quoted(property.name) + " of element " +
+                               sphparam::quoted(element.name) + ": it has " +
                                counted(missing, "value that is", "values that are") + " not finite";
       if (&element == vertex_element_ && std::ranges::count(of_rays, property.name) > 0)
         throw ReadError(name_, what);
@@ -423,7 +426,7 @@ class PlyReader {
 
   std::int64_t list_length(const PlyProperty& property) {
     const std::int64_t length = body_.integer(property.count_type);
-    if (length < 0) body_.fail("negative length of list " + quoted(property.name));
+    if (length < 0) body_.fail("negative length of list " + sphparam::quoted(property.name));
     return length;
   }
 
@@ -453,7 +456,7 @@ class PlyReader {
     list.type = property.type;
     const std::int64_t length = list_length(property);
     if (length > list.width * options_.max_polygon_degree)
-      body_.fail("list " + quoted(property.name) + " is longer than any face's may be");
+      body_.fail("list " + sphparam::quoted(property.name) + " is longer than any face's may be");
     for (std::int64_t i = 0; i < length; ++i) list.values.push_back(body_.real(property.type));
   }
 
@@ -476,7 +479,8 @@ class PlyReader {
   void read_strips(const PlyElement& element) {
     for (const PlyProperty& property : element.properties)
       if (&property != index_property_)
-        add_loss(file_.notes, "property " + quoted(property.name) + " of triangle strips");
+        add_loss(file_.notes,
+                 "property " + sphparam::quoted(property.name) + " of triangle strips");
     for (std::int64_t s = 0; s < element.count; ++s) {
       body_.begin({&element, s});
       for (const PlyProperty& property : element.properties)
@@ -523,7 +527,7 @@ class PlyReader {
   void skip_element(const PlyElement& element) {
     if (element.count == 0) return;
     add_loss(file_.notes, counted(static_cast<long>(element.count), "record") + " of element " +
-                              quoted(element.name));
+                              sphparam::quoted(element.name));
     for (std::int64_t i = 0; i < element.count; ++i) {
       body_.begin({&element, i});
       for (const PlyProperty& property : element.properties) skip(property);
@@ -545,6 +549,7 @@ class PlyReader {
     }
     adopt_triangulation(file_, std::move(triangulation));
     add_comments();
+    take_other_colours(file_);
     return std::move(file_);
   }
 
@@ -562,6 +567,9 @@ class PlyReader {
       else
         file_.comments.push_back(std::move(comment));
     }
+    if (header_.infos > 0)
+      file_.notes.push_back(counted(header_.infos, "obj_info line is", "obj_info lines are") +
+                            " kept as " + (header_.infos == 1 ? "a comment" : "comments"));
   }
 
   [[noreturn]] void fail_at(long line, const std::string& message) const {
@@ -594,14 +602,8 @@ MeshFile read_body(std::string_view bytes, const std::string& name, const ReadOp
   return file;
 }
 
-}  // namespace
-
-bool looks_like_ply(std::string_view bytes) {
-  return bytes.starts_with("ply") &&
-         (bytes.size() == 3 || std::isspace(static_cast<unsigned char>(bytes[3])));
-}
-
-MeshFile read_ply(std::string_view bytes, const std::string& name, const ReadOptions& options) {
+MeshFile read_in_encoding(std::string_view bytes, const std::string& name,
+                          const ReadOptions& options) {
   if (!looks_like_ply(bytes)) throw ReadError::at_line(name, 1, "expected the magic word 'ply'");
   PlyHeader header = parse_ply_header(bytes, name, options);
   switch (header.encoding) {
@@ -615,6 +617,20 @@ MeshFile read_ply(std::string_view bytes, const std::string& name, const ReadOpt
   }
   return read_body<BinaryBody<std::endian::big>>(bytes, name, options, std::move(header),
                                                  "PLY binary big-endian");
+}
+
+}  // namespace
+
+bool looks_like_ply(std::string_view bytes) {
+  return bytes.starts_with("ply") &&
+         (bytes.size() == 3 || std::isspace(static_cast<unsigned char>(bytes[3])));
+}
+
+MeshFile read_ply(std::string_view bytes, const std::string& name,
+                  const std::optional<std::filesystem::path>& folder, const ReadOptions& options) {
+  MeshFile file = read_in_encoding(bytes, name, options);
+  if (!options.only_map) take_texture_pages(file, folder);
+  return file;
 }
 
 }  // namespace sphparam
