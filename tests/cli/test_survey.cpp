@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <chrono>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -74,6 +75,34 @@ TEST_CASE("survey: a file that memory does not hold is told, and the others go o
   CHECK(json["counts"]["stopped"] == 1);
   CHECK(json["counts"]["maps"] == 1);
   CHECK(json["counts"]["maps-mended"] == 1);
+}
+
+TEST_CASE("survey: where no pictures can be made no mesh is to blame, and no record says so") {
+  const Folder folder;
+  const std::string scans = good_scans(folder), page = folder / "page.html";
+  for (const char* name : {"found", "modules"}) fs::create_directory(folder / name);
+  write_bytes(folder / "modules/sphparam_image_oiio.so", "no module");
+  const auto survey = [&](const std::string& size) {
+    const Ended ended = sphparam_program({"survey", scans, "-o", page, "--size", size, "--records",
+                                          folder / "found", "--json", "-"});
+    return Json::parse(ended.out);
+  };
+  const auto records = [&] {
+    return std::distance(fs::directory_iterator(folder / "found"), fs::directory_iterator());
+  };
+  REQUIRE(setenv("SPHPARAM_MODULES", (folder / "modules").c_str(), 1) == 0);
+  const Json without = survey("32"), unseen = survey("0");
+  REQUIRE(unsetenv("SPHPARAM_MODULES") == 0);
+  CHECK(without["counts"]["maps"] == 1);
+  CHECK(without["counts"]["stopped"] == 1);
+  const Json& open = without["meshes"][1];
+  CHECK_THAT(open["reasons"][0].get<std::string>(),
+             Contains("pictures cannot be made") && Contains("`--size 0`"));
+  CHECK(open["ways"].empty());
+  CHECK(unseen["counts"]["maps-mended"] == 1);
+  CHECK(records() == 3);  // of the ball twice: with pictures it is another question
+  CHECK(survey("32")["counts"]["maps-mended"] == 1);
+  CHECK(records() == 4);
 }
 
 TEST_CASE("survey: a signal ends it in good order, and from its records it goes on") {

@@ -11,6 +11,7 @@
 
 #include "number_text.h"
 #include "sphparam/errors.h"
+#include "sphparam/image/image_format.h"
 #include "sphparam/io/components.h"
 #include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/mesh_source.h"
@@ -58,6 +59,9 @@ class Surveyor {
       end(SurveyEnd::Unreadable, error.what());
     } catch (const std::bad_alloc&) {
       end(SurveyEnd::Stopped, no_memory);
+    } catch (const ImageError& error) {  // of this machine: no mesh is to blame for it
+      end(SurveyEnd::Stopped,
+          std::string("its pictures cannot be made (`--size 0` makes none): ") + error.what());
     } catch (const std::exception& error) {  // of this file, not of the survey
       end(SurveyEnd::CannotMap, error.what());
     }
@@ -109,6 +113,8 @@ class Surveyor {
     try {
       way();
     } catch (const Cancelled&) {
+      throw;
+    } catch (const ImageError&) {
       throw;
     } catch (const std::bad_alloc&) {
       failed(no_memory);
@@ -237,6 +243,9 @@ class Surveyor {
   void end(SurveyEnd how, const std::string& why) {
     mesh_.end = how;
     mesh_.reasons = {why};
+    if (how != SurveyEnd::Stopped) return;
+    mesh_.repairs.clear();  // half of what there is to know
+    mesh_.ways.clear();
   }
 
   /// Messages name the file as the page does, wherever the folder lies.

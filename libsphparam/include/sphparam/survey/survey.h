@@ -16,7 +16,8 @@ enum class SurveyEnd {
   CannotMap,     // whatever is repaired: `reasons` say why
   NotCertified,  // a closed genus-0 mesh can be made of it, but its map is not one-to-one
   Unreadable,    // `reasons` say why
-  Stopped,       // it took too long or too much memory, or ended the process that tried it
+  Stopped,       // it took too long or too much memory, ended the process that tried it, or there
+                 // is no image module for its pictures
 };
 
 /// "maps", "maps-mended", …
