@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bake/field_registry.h"
+#include "image/image_codec.h"
 #include "scenes.h"
 #include "sphparam/bake/bake.h"
 #include "sphparam/io/fillers.h"
@@ -103,6 +104,60 @@ TEST_CASE("bake images: a heat map has its scale beside it") {
   CHECK(std::isnan(report.images[0].beyond));  // not counted
   CHECK(fs::exists(scale_path(folder / "area.png")));
   CHECK(folder.count() == 2);
+}
+
+TEST_CASE("bake images: a heat map of what heat has no colours for is numbers, which is told") {
+  const Folder folder;
+  BakeSettings settings = small;
+  settings.fields.heat = true;
+  const BakeReport report =
+      bake(egg(2), {{"height", folder / "h.png"}, {"area", folder / "a.png"}}, settings);
+  CHECK(report.warnings ==
+        std::vector<std::string>{
+            "height: numbers, not colours: heat is of distortion and curvature"});
+}
+
+TEST_CASE("bake images: far from the origin integers keep the digits that float32 has not") {
+  const Folder folder;
+  const double far = 4194304;  // 2^22: float32 is 0.5 apart there
+  const auto baked = [&](double aside, const std::string& map, const std::string& name) {
+    return bake(egg(3, aside), {{map, folder / name}}, small);
+  };
+  baked(0, "position", "near.tif");
+  const BakeReport position = baked(far, "position", "far.tif");
+  CHECK(position.warnings.empty());
+  CHECK(position.images[0].range == std::pair(0.0, 3.0));
+  CHECK(position.images[0].beyond == 0);
+  CHECK(position.images[0].about.ends_with("; less -1.5 4194303 -1"));
+  ImageTexts texts;
+  const Image near = read_image(folder / "near.tif"),
+              moved = read_image(folder / "far.tif", {}, &texts);
+  CHECK(std::ranges::any_of(texts, [](const auto& text) {
+    return text.second.find("sphparam:offset=-1.5 4194303 -1") != std::string::npos;
+  }));
+  constexpr double origin[] = {-1.5, -1, -1}, step = 3.0 / 65535;
+  for (size_t i = 0; i < near.pixels.size(); ++i) {
+    const double meant = 3 * static_cast<double>(near.pixels[i]) - 1.5;
+    CHECK(origin[i % 3] + 3 * static_cast<double>(moved.pixels[i]) ==
+          Approx(meant).margin(1.01 * step));
+  }
+
+  const BakeReport height = baked(far, "height", "height.tif");
+  const auto [low, high] = height.images[0].range.value();
+  const Image heights = read_image(folder / "height.tif");
+  for (size_t i = 0; i < heights.pixels.size(); ++i) {
+    const double y = 3 * static_cast<double>(near.pixels[3 * i + 1]) - 1.5;
+    CHECK(low - far + (high - low) * static_cast<double>(heights.pixels[i]) ==
+          Approx(y).margin(2 * step));
+  }
+
+  const BakeReport floats = baked(far, "position", "far.exr");
+  CHECK(floats.warnings ==
+        std::vector<std::string>{"position: so far from the origin, numbers of 32 bits are 0.5 "
+                                 "apart, 16.7 % of the mesh's length: depth u16 (.png, .tif) keeps "
+                                 "more, or move the mesh nearer"});
+  CHECK(read_image(folder / "far.exr").pixels[1] == static_cast<float>(far));
+  CHECK(baked(300, "position", "some.exr").warnings.empty());
 }
 
 TEST_CASE("bake images: where one cannot be baked none is written") {

@@ -1,8 +1,14 @@
 #include <unistd.h>
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "image/image_codec.h"
 #include "sphparam/io/safe_file.h"
@@ -181,6 +187,82 @@ TEST_CASE("read_textures: colours of an EXR are linear, those of a PNG are sRGB"
   };
   CHECK(texel(ImageFormat::Exr, SampleType::Float) == Approx(32768).margin(1));
   CHECK(texel(ImageFormat::Png, SampleType::Uint16) == Approx(14027).margin(20));
+}
+
+namespace {
+
+std::string big_endian(std::uint32_t x, int size) {
+  std::string bytes;
+  for (int i = size; i-- > 0;) bytes += static_cast<char>(x >> (8 * i) & 255);
+  return bytes;
+}
+
+/// A profile of three primaries, in 65536ths, and a curve that is a power, in 256ths.
+std::string profile_of(const std::array<std::array<std::uint32_t, 3>, 3>& primaries,
+                       std::uint32_t power, const std::string& name) {
+  std::vector<std::pair<std::string, std::string>> tags;
+  const std::string none(4, '\0');
+  for (size_t i = 0; i < 3; ++i) {
+    std::string xyz = "XYZ " + none;
+    for (const std::uint32_t x : primaries[i]) xyz += big_endian(x, 4);
+    tags.emplace_back(std::string(1, "rgb"[i]) + "XYZ", xyz);
+    tags.emplace_back(std::string(1, "rgb"[i]) + "TRC",
+                      "curv" + none + big_endian(1, 4) + big_endian(power, 2) + none.substr(2));
+  }
+  const auto length = static_cast<std::uint32_t>(name.size() + 1);
+  std::string said = "desc" + none + big_endian(length, 4) + name + std::string(80, '\0');
+  said.resize((said.size() + 3) / 4 * 4);
+  tags.emplace_back("desc", said);
+  std::string table = big_endian(static_cast<std::uint32_t>(tags.size()), 4), data;
+  for (const auto& [tag, value] : tags) {
+    const size_t at = 128 + 4 + 12 * tags.size() + data.size();
+    table += tag + big_endian(static_cast<std::uint32_t>(at), 4) +
+             big_endian(static_cast<std::uint32_t>(value.size()), 4);
+    data += value;
+  }
+  std::string head = std::string(8, '\0') + big_endian(0x02400000, 4) + "mntrRGB XYZ ";
+  head += std::string(12, '\0') + "acsp";
+  head.resize(128, '\0');
+  const std::string all = head + table + data;
+  return big_endian(static_cast<std::uint32_t>(all.size()), 4) + all.substr(4);
+}
+
+/// The ball with a JPEG that has the profile.
+MeshFile with_profile(const std::string& profile) {
+  const std::vector<char> jpeg = encode_image(Image(8, 8, 3), ImageFormat::Jpeg);
+  const std::string segment = "ICC_PROFILE" + std::string(1, '\0') + "\x01\x01" + profile;
+  const std::string marked =
+      "\xff\xe2" + big_endian(static_cast<std::uint32_t>(segment.size() + 2), 2) + segment;
+  auto bytes = std::make_shared<std::vector<char>>(jpeg.begin(), jpeg.begin() + 2);
+  bytes->insert(bytes->end(), marked.begin(), marked.end());
+  bytes->insert(bytes->end(), jpeg.begin() + 2, jpeg.end());
+  MeshFile file = ball(true);
+  file.materials = {"skin"};
+  file.base_colours.resize(1);
+  file.base_colours[0].image = "skin.jpg";
+  file.base_colours[0].bytes = bytes;
+  return file;
+}
+
+}  // namespace
+
+TEST_CASE("read_textures: a colour profile beside sRGB's is told, by what it says of colours") {
+  const auto warnings = [](const std::string& profile) {
+    return warnings_of(read_textures(with_profile(profile), 1));
+  };
+  constexpr std::array<std::array<std::uint32_t, 3>, 3> srgb = {
+      {{28577, 14581, 912}, {25238, 46983, 6363}, {9380, 3973, 46786}}};
+  constexpr std::array<std::array<std::uint32_t, 3>, 3> adobe = {
+      {{39960, 20389, 1276}, {13453, 41004, 3977}, {9775, 4141, 48793}}};
+  constexpr std::uint32_t gamma = 563;  // 2.2
+  CHECK(warnings(profile_of(srgb, gamma, "whatever")).empty());
+  CHECK(warnings(profile_of(adobe, gamma, "Adobe RGB (1998)")) ==
+        std::vector<std::string>{"skin.jpg: its colours are taken as sRGB; its colour profile, "
+                                 "Adobe RGB (1998), is not heeded (convert the image to sRGB)"});
+  CHECK(warnings(profile_of(srgb, 256, "linear")).size() == 1);
+  CHECK(warnings(std::string(200, 'x')).size() == 1);  // no profile that one knows
+  CHECK_THAT(shown_textures(with_profile(profile_of(adobe, gamma, "Adobe")), "ball").warning,
+             Contains("taken as sRGB"));
 }
 
 TEST_CASE("read_textures: BMP and TGA are images of materials") {

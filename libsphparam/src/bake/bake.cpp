@@ -91,11 +91,17 @@ ImageTexts texts_of_all(const MappedMesh& source, const BakeSettings& settings) 
   return texts;
 }
 
+std::string about_file(const PlannedImage& image) {
+  const bool is_moved = image.field.is_far() && image.field.proper_channels() > 1 &&
+                        is_integer(image.file.sample_type);
+  return image.field.about + (is_moved ? "; less " + origin_text(image.field) : "");
+}
+
 /// Of colours that stand for values (heat_field.h) `beyond` is NaN: their values are not counted.
 BakedImage told(const PlannedImage& image, double beyond) {
   const bool stands_for_values = image.field.kind == FieldKind::Colour && image.field.range;
   return {.field = image.field.name,
-          .about = image.field.about,
+          .about = about_file(image),
           .path = image.request.path,
           .sample_type = image.file.sample_type,
           .channels = image.field.channels,
@@ -123,6 +129,8 @@ BakeReport bake(const MappedMesh& source, const std::vector<BakeRequest>& images
   const bool with_textures =
       std::ranges::any_of(images, [](const auto& image) { return needs_textures(image.field); });
   BakeScene scene = scene_for(source, std::move(chosen.target), with_textures, settings);
+  for (std::string& warning : warnings_of(scene.source.textures))
+    report.warnings.push_back(std::move(warning));
   report_projection(scene, settings, report);
   if (with_textures && settings.texture.empty())
     for (std::string& warning : one_material(scene.source.file()).warnings)
@@ -131,6 +139,8 @@ BakeReport bake(const MappedMesh& source, const std::vector<BakeRequest>& images
   std::vector<PlannedImage> plan;
   for (const BakeRequest& request : images) plan.push_back(plan_image(request, scene, settings));
   for (PlannedImage& image : plan) CalmWalls::calm(scene.walls, image.field);
+  for (std::string& warning : warnings_of(plan, scene, settings))
+    report.warnings.push_back(std::move(warning));
   find_ranges(plan, scene, settings);
   const std::vector<double> beyond =
       write_images(plan, scene, settings, texts_of_all(source, settings), files);
@@ -165,7 +175,11 @@ std::vector<BakedField> bake_values(const MappedMesh& source, const std::vector<
   if (fields.empty()) return baked;
   bake(scene, fields, engine_options(settings, "bake"),
        [&](size_t field, int first_row, int count, const float* values) {
-         rows(field, baked[field], first_row, count, values);
+         if (!fields[field].is_far()) return rows(field, baked[field], first_row, count, values);
+         std::vector<float> moved(
+             values, values + std::ptrdiff_t{count} * settings.width * fields[field].channels);
+         add_origin(fields[field], moved);
+         rows(field, baked[field], first_row, count, moved.data());
        });
   return baked;
 }

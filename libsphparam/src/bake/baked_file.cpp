@@ -50,6 +50,8 @@ ImageFileOptions file_options(const SurfaceField& field, const BakedFileOptions&
     add("sphparam:min", shortest(range->first));
     add("sphparam:max", shortest(range->second));
   }
+  if (is_integer(options.sample_type) && field.is_far() && field.proper_channels() > 1)
+    add("sphparam:offset", origin_text(field));
   for (const auto& [name, value] : field.texts) add(name.c_str(), value);
   const bool colour = field.kind == FieldKind::Colour;
   add("oiio:ColorSpace", !colour ? "raw" : is_integer(options.sample_type) ? "sRGB" : "Linear");
@@ -89,7 +91,20 @@ std::vector<Sample> integers(const float* values, size_t count, const SurfaceFie
 
 std::optional<std::pair<double, double>> range_in_file(const SurfaceField& field, SampleType type) {
   if (!is_integer(type) && field.kind != FieldKind::Colour) return std::nullopt;
-  return field.range;
+  if (!field.range || field.proper_channels() > 1) return field.range;
+  return std::pair(field.range->first + field.origin[0], field.range->second + field.origin[0]);
+}
+
+std::string origin_text(const SurfaceField& field) {
+  return shortest(field.origin[0]) + " " + shortest(field.origin[1]) + " " +
+         shortest(field.origin[2]);
+}
+
+void add_origin(const SurfaceField& field, std::vector<float>& values) {
+  const auto channels = static_cast<size_t>(field.channels);
+  for (size_t i = 0; i < values.size(); ++i)
+    values[i] = static_cast<float>(static_cast<double>(values[i]) +
+                                   field.origin_of(static_cast<int>(i % channels)));
 }
 
 BakedFile::BakedFile(const SurfaceField& field, const BakedFileOptions& options, ImagePlace file)
@@ -113,11 +128,20 @@ void BakedFile::encode(const float* values, int rows) {
     case SampleType::Uint16:
       return writer_.write_rows(integers<std::uint16_t>(values, count, field_).data(), rows);
     case SampleType::Half:
-      require_halves(values, count);
-      return writer_.write_rows(values, rows);
     case SampleType::Float:
-      return writer_.write_rows(values, rows);
+      return encode_floats(values, count, rows);
   }
+}
+
+void BakedFile::encode_floats(const float* values, size_t count, int rows) {
+  std::vector<float> moved;
+  if (field_.is_far()) {
+    moved.assign(values, values + count);
+    add_origin(field_, moved);
+    values = moved.data();
+  }
+  if (options_.sample_type == SampleType::Half) require_halves(values, count);
+  writer_.write_rows(values, rows);
 }
 
 /// The rows of one level: whole rows of tiles at once.

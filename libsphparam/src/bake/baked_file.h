@@ -28,13 +28,20 @@ class ImageLevel;
 /// end there. Nothing where the values are as they are, or the field has no range.
 std::optional<std::pair<double, double>> range_in_file(const SurfaceField& field, SampleType type);
 
+/// What the channels of a field that is far from the origin are counted from, with blanks between.
+std::string origin_text(const SurfaceField& field);
+
+/// Makes values of a field those that they stand for, in float32: sums with its origin.
+void add_origin(const SurfaceField& field, std::vector<float>& values);
+
 /// Writes the baked values of a field as an image file, as rows come.
 ///
 /// Colours become sRGB in integer files and stay linear in others; directions become ½ + ½·n, data
 /// the part of their range from 0 to 1 in integers (what is no number becomes 0), and stay as they
 /// are in others. Rows are in
 /// θ on entry and in the convention's u in the file. Metadata: sphparam:map, :about, :convention,
-/// :u0 (u = turns·θ/2π + u0), :min and :max (what 0 and 1 stand for), oiio:ColorSpace.
+/// :u0 (u = turns·θ/2π + u0), :min and :max (what 0 and 1 stand for), :offset (what is to be added
+/// to them, a channel, in integers of several channels far from the origin), oiio:ColorSpace.
 ///
 /// Levels of tiled files are means of boxes of texels, of unit length again for directions, the
 /// first texel for labels. A box never reaches beyond the seam or a pole, so levels wrap as the
@@ -56,6 +63,7 @@ class BakedFile {
  private:
   void write_level_rows(const float* values, int rows);
   void encode(const float* values, int rows);
+  void encode_floats(const float* values, size_t count, int rows);
   void count_beyond(const float* values, int rows);
 
   SurfaceField field_;  // without its functions

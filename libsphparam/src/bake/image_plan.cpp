@@ -7,6 +7,8 @@
 #include "bake/coverage.h"
 #include "bake/field_registry.h"
 #include "bake/fields/attribute_fields.h"
+#include "mesh/box.h"
+#include "number_text.h"
 #include "sphparam/io/paths.h"
 
 namespace sphparam {
@@ -129,6 +131,38 @@ BakeOptions engine_options(const BakeSettings& settings, const char* stage) {
     };
   }
   return options;
+}
+
+namespace {
+
+/// How far apart the numbers of 32 bits are where a field of a mesh of this length lies.
+double float_step(const SurfaceField& field, double side) {
+  const double most =
+      std::max({std::abs(field.origin[0]), std::abs(field.origin[1]), std::abs(field.origin[2])});
+  return std::ldexp(1.0, std::ilogb(most + side) - (std::numeric_limits<float>::digits - 1));
+}
+
+std::string rounding_line(const SurfaceField& field, const BakeScene& scene) {
+  const double side = longest_side(scene.source.mesh()), step = float_step(field, side);
+  return field.name + ": so far from the origin, numbers of 32 bits are " + short_number(step) +
+         " apart, " + percent(step / side) +
+         " of the mesh's length: depth u16 (.png, .tif) keeps more, or move the mesh nearer";
+}
+
+}  // namespace
+
+std::vector<std::string> warnings_of(const std::vector<PlannedImage>& images,
+                                     const BakeScene& scene, const BakeSettings& settings) {
+  std::vector<std::string> warnings;
+  for (const PlannedImage& image : images) {
+    const SurfaceField& field = image.field;
+    if (field.is_far() && !is_integer(image.file.sample_type))
+      warnings.push_back(rounding_line(field, scene));
+    if (settings.fields.heat && field.kind == FieldKind::Data)
+      warnings.push_back(field.name +
+                         ": numbers, not colours: heat is of distortion and curvature");
+  }
+  return warnings;
 }
 
 void find_ranges(std::vector<PlannedImage>& images, const BakeScene& scene,

@@ -30,6 +30,11 @@ PlannedImage plan_image(const BakeRequest& request, BakeScene& scene, const Bake
 void find_ranges(std::vector<PlannedImage>& images, const BakeScene& scene,
                  const BakeSettings& settings);
 
+/// What of the images is not as one might think: numbers that are rounded far from the origin, and
+/// those that heat has no colours for.
+std::vector<std::string> warnings_of(const std::vector<PlannedImage>& images,
+                                     const BakeScene& scene, const BakeSettings& settings);
+
 /// The settings as the engine takes them, its progress told as this stage.
 BakeOptions engine_options(const BakeSettings& settings, const char* stage);
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -78,6 +80,9 @@ struct SurfaceField {
   std::vector<std::pair<std::string, std::string>> texts = {};  // more metadata of its own
   // Where values of integer images come from and go to; none: known only once all are baked.
   std::optional<std::pair<double, double>> range = std::nullopt;
+  // What is added to values and range, a channel: far from the origin, for the size of a mesh,
+  // float32 would round away what is told of it. 0 elsewhere.
+  std::array<double, 3> origin = {};
   bool calm = false;  // shows nothing of what walls hide: see CalmWalls
 
   /// Fills values[channels·i …] for sample i. Called from many threads at once.
@@ -94,6 +99,11 @@ struct SurfaceField {
 
   /// Of the values proper: those of the kind.
   int proper_channels() const { return has_coverage ? channels - 1 : channels; }
+  bool is_far() const { return origin != std::array<double, 3>{}; }
+  /// Of a channel, coverage too.
+  double origin_of(int channel) const {
+    return channel < std::min(proper_channels(), 3) ? origin[static_cast<size_t>(channel)] : 0;
+  }
 };
 
 }  // namespace sphparam

@@ -203,6 +203,7 @@ class LookMaker {
     }
     textures_ = read_textures(file, options_.threads);
     if (!textures_.empty()) take_one_material(given);
+    std::ranges::move(warnings_of(textures_), std::back_inserter(look_.warnings));
     // Vertex colours would tint all variants: where there are some, they are baked too, as are
     // those of vertices that have several.
     const bool baked_colours =

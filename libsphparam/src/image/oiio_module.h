@@ -95,7 +95,10 @@ struct SphparamImageTable {
 typedef const SphparamImageTable* (*SphparamImageTableFunction)();
 }
 
-constexpr int sphparam_image_table_version = 6;
+constexpr int sphparam_image_table_version = 7;
 /// What `error` is told where memory ran out, and nowhere else.
 constexpr char sphparam_image_no_memory[] = "not enough memory";
+/// The name under which `decode` tells, as a text, what profile colours are in, where it is not
+/// that of sRGB.
+constexpr char sphparam_other_profile[] = "sphparam:other-profile";
 constexpr char sphparam_image_table_name[] = "sphparam_image_table";

@@ -49,7 +49,11 @@ ShownTextures shown_textures(const MeshFile& file, const std::string& name,
                              const std::string& image, int threads) {
   if (!image.empty()) {
     const SourceTexture texture = read_texture(image, TextureWrap::Repeat, threads);
-    if (has_texcoords(file)) return shown({.of_materials = {texture}, .one_for_all = true});
+    if (has_texcoords(file)) {
+      ShownTextures result = shown({.of_materials = {texture}, .one_for_all = true});
+      result.warning = texture.warning;
+      return result;
+    }
     throw NoTexcoords(name + " has no texture coordinates, so its texture has no place");
   }
   if (const std::string words = left_behind(file); !words.empty()) {
@@ -63,6 +67,8 @@ ShownTextures shown_textures(const MeshFile& file, const std::string& name,
     if (const std::string material = see_through(file); !material.empty())
       result.warning = name + ": shown opaque: pictures have no transparency, as its material '" +
                        material + "' has";
+    for (const std::string& warning : warnings_of(result.textures->of_materials))
+      result.warning += (result.warning.empty() ? "" : "; ") + warning;
     return result;
   } catch (const ImageError& error) {
     return shown_without(std::string(error.what()) + ": shown without");

@@ -86,22 +86,32 @@ Image image_of(const MaterialTexture& texture, const std::string& what) {
   return texture.image.empty() ? Image() : decode_image(bytes_of(texture, what), what);
 }
 
+/// Colours are taken as sRGB, whatever profile an image has. Empty: it has none, or that.
+std::string profile_warning(const std::string& image, const ImageTexts& texts) {
+  const auto found = std::ranges::find(texts, other_profile_text, &ImageTexts::value_type::first);
+  if (found == texts.end()) return "";
+  return image + ": its colours are taken as sRGB; its colour profile, " + found->second +
+         ", is not heeded (convert the image to sRGB)";
+}
+
 /// Throws ImageError.
 DecodedTexture decode(const MaterialTexture& colour, const std::string& what, TexelKind kind,
                       int threads) {
   bool linear = kind == TexelKind::Number;
   Image image;
+  ImageTexts texts;
   if (const auto& parts = colour.made_of) {
     image = metallic_roughness_image(*parts, image_of(parts->diffuse, what),
                                      image_of(parts->specular, what), linear, threads);
   } else {
     const std::vector<char> bytes = bytes_of(colour, what);
     linear |= is_exr(bytes);
-    image = decode_image(bytes, what);
+    image = decode_image(bytes, what, {}, &texts);
   }
   const bool heights = colour.bump != 0 && is_grey(image);
   if (heights) image = normals_of_heights(image, colour);
-  return {std::make_shared<const TexturePyramid>(image, linear, threads), heights};
+  return {std::make_shared<const TexturePyramid>(image, linear, threads), heights,
+          linear ? "" : profile_warning(colour.image, texts)};
 }
 
 /// As `note_nearest` has it.
@@ -135,15 +145,26 @@ std::string why_unusable(const MaterialTexture& texture) try {
   return why.substr(0, why.find('\n'));
 }
 
+std::vector<std::string> warnings_of(const std::vector<SourceTexture>& textures) {
+  std::vector<std::string> warnings;
+  for (const SourceTexture& texture : textures)
+    if (!texture.warning.empty() && std::ranges::find(warnings, texture.warning) == warnings.end())
+      warnings.push_back(texture.warning);
+  return warnings;
+}
+
 ImageOrigin origin_of(const MaterialTexture& texture) {
   return {texture.folder, texture.path, texture.bytes, texture.made_of};
 }
 
 SourceTexture read_texture(const std::string& path, TextureWrap wrap, int threads) {
   const bool linear = extension_of(path) == ".exr";
-  return {.image = std::make_shared<const TexturePyramid>(read_image(path), linear, threads),
+  ImageTexts texts;
+  const Image image = read_image(path, {}, &texts);
+  return {.image = std::make_shared<const TexturePyramid>(image, linear, threads),
           .wrap_s = wrap,
-          .wrap_t = wrap};
+          .wrap_t = wrap,
+          .warning = linear ? "" : profile_warning(path, texts)};
 }
 
 SourceTexture TextureReader::read(const MaterialTexture& said, const std::string& material) {
@@ -163,6 +184,7 @@ SourceTexture TextureReader::read(const MaterialTexture& said, const std::string
                 wraps_count ? said.wrap_t : Wrapping::Repeat}];
   if (!decoded.image) decoded = decode(said, what, kind_, threads_);
   texture.image = decoded.image;
+  texture.warning = decoded.warning;
   if (said.bump != 0 && !decoded.heights) texture.factor[0] = static_cast<float>(said.bump);
   return texture;
 }

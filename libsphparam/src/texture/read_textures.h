@@ -20,6 +20,9 @@ SourceTexture read_texture(const std::string& path, TextureWrap wrap, int thread
 /// Throws: ImageError that names material and image, for one that is missing, broken or unusable.
 std::vector<SourceTexture> read_textures(const MeshFile& file, int threads);
 
+/// What is to be told of them, each line once.
+std::vector<std::string> warnings_of(const std::vector<SourceTexture>& textures);
+
 /// Why a material's image cannot be used, in a line: it is not there, of no kind that is read, or
 /// broken; empty where there is none, or nothing against it. Cost: that of decoding it.
 std::string why_unusable(const MaterialTexture& texture);
@@ -37,6 +40,7 @@ enum class TexelKind { Colour, Number };
 struct DecodedTexture {
   std::shared_ptr<const TexturePyramid> image = nullptr;
   bool heights = false;
+  std::string warning = {};  // as `SourceTexture` has it
 };
 
 /// Reads textures of one kind; an image that several share is decoded once.

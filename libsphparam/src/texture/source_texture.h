@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "sphparam/image/image.h"
@@ -21,7 +22,8 @@ struct SourceTexture {
   std::array<float, 4> factor = {1, 1, 1, 1};             // linear red, green, blue, alpha
   TexturePlacement placement = {{{1, 0, 0}, {0, 1, 0}}};  // on the mesh's coordinates, t upwards
   bool second = false;                                    // on the second ones
-  bool nearest = false;  // texels that are larger than samples are seen as they are
+  bool nearest = false;      // texels that are larger than samples are seen as they are
+  std::string warning = {};  // what its image has that is not heeded; empty: nothing
 };
 
 /// The textures of a mesh: one a material of its file, or the first for all faces; empty: none.

@@ -15,7 +15,7 @@ struct MeshTextures;
 struct ShownTextures {
   std::shared_ptr<const MeshTextures> textures;  // never null; may be none
   /// Why it is shown without those that its file has or should have, or opaque although its
-  /// materials are not, for people; empty: nothing is wrong.
+  /// materials are not, or in other colours, for people; empty: nothing is wrong.
   std::string warning = {};
   bool left_behind = false;  // they are not in this file but in the glTF that it comes from
 };

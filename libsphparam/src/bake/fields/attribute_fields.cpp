@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 
+#include "bake/fields/far_values.h"
 #include "bake/fields/linear_field.h"
 #include "io/attributes/source_attributes.h"
 #include "io/attributes/weightiest_label.h"
@@ -171,15 +172,23 @@ std::vector<int> materials_of(const MeshFile& file) {
 SurfaceField make_position(const BakeScene& scene, const std::string&) {
   const TriangleMesh& mesh = scene.source.mesh();
   require_float32_size(mesh.positions, "position");
-  return linear_field<3>(
-      {.name = "position",
-       .about = "x y z of the mesh, its own unit and axes; one range for all three",
-       .unit = unit_of_lengths(scene.options),
-       .range = std::pair(mesh.positions.minCoeff(), mesh.positions.maxCoeff())},
-      [&mesh](Face f, int k, std::array<double, 3>& value) {
-        const int v = mesh.triangles(f, k);
-        for (int c = 0; c < 3; ++c) value[static_cast<size_t>(c)] = mesh.positions(v, c);
-      });
+  SurfaceField field = {
+      .name = "position",
+      .about = "x y z of the mesh, its own unit and axes; one range for all three",
+      .unit = unit_of_lengths(scene.options),
+      .range = std::pair(mesh.positions.minCoeff(), mesh.positions.maxCoeff())};
+  const Box box = box_of(mesh.positions);
+  if (is_far(mesh.positions.cwiseAbs().maxCoeff(), box)) {
+    field.origin = {box.lower[0], box.lower[1], box.lower[2]};
+    field.range = std::pair(0.0, box.longest_side());
+  }
+  const std::array<double, 3> origin = field.origin;
+  return linear_field<3>(std::move(field),
+                         [&mesh, origin](Face f, int k, std::array<double, 3>& value) {
+                           const int v = mesh.triangles(f, k);
+                           for (size_t c = 0; c < 3; ++c)
+                             value[c] = mesh.positions(v, static_cast<int>(c)) - origin[c];
+                         });
 }
 
 SurfaceField make_vertex_colour(const BakeScene& scene, const std::string&) {

@@ -5,6 +5,7 @@
 #include "bake/fields/height_field.h"
 
 #include "bake/field_registry.h"
+#include "bake/fields/far_values.h"
 #include "mesh/float32_size.h"
 #include "rays/interpolation.h"
 
@@ -14,10 +15,13 @@ namespace {
 SurfaceField radial_height(const TriangleMesh& mesh) {
   SurfaceField field = {.name = "height",
                         .about = "distance from the origin, in units of the mesh"};
-  field.evaluate = [&mesh](std::span<const SurfaceSample> samples, float* values) {
+  const double least = mesh.positions.rowwise().norm().minCoeff();
+  const double origin = is_far(least, box_of(mesh.positions)) ? least : 0;
+  field.origin[0] = origin;
+  field.evaluate = [&mesh, origin](std::span<const SurfaceSample> samples, float* values) {
     for (const SurfaceSample& sample : samples) {
-      *values++ =
-          static_cast<float>(interpolate(mesh.positions, mesh.triangles, sample.point).norm());
+      *values++ = static_cast<float>(
+          interpolate(mesh.positions, mesh.triangles, sample.point).norm() - origin);
     }
   };
   return field;

@@ -70,13 +70,14 @@ std::string element(const char* name, const std::string& text) {
 }
 
 /// Value = offset + scale · sample.
-std::string scaling(const SurfaceField& field, SampleType type) {
+std::string scaling(const SurfaceField& field, int band, SampleType type) {
   if (!is_integer(type) || field.kind == FieldKind::Colour) return "";
   const bool direction = field.kind == FieldKind::Direction;
   const auto [low, high] =
       direction ? std::pair(-1.0, 1.0) : field.range.value_or(std::pair(0.0, 1.0));
   const double full = type == SampleType::Uint8 ? 255 : 65535;
-  return element("Offset", shortest(low)) + element("Scale", shortest((high - low) / full));
+  return element("Offset", shortest(low + field.origin_of(band))) +
+         element("Scale", shortest((high - low) / full));
 }
 
 std::string band_name(const SurfaceField& field, int band) {
@@ -94,7 +95,7 @@ std::string band_of(const SurfaceField& field, int band, SampleType type) {
   } else {
     xml += element("Description", band_name(field, band));
     if (!field.unit.empty()) xml += element("UnitType", field.unit);
-    xml += scaling(field, type);
+    xml += scaling(field, band, type);
   }
   return xml + "  </PAMRasterBand>\n";
 }

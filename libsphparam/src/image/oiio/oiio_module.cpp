@@ -19,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+#include "image/oiio/colour_profile.h"
 #include "image/oiio/png_texts.h"
 #include "image/oiio/webp_codec.h"
 
@@ -116,7 +117,7 @@ void place(const std::vector<float>& pixels, const OIIO::ImageSpec& spec, float*
 void tell_texts(const OIIO::ImageSpec& spec, SphparamTextSink text, void* context) {
   for (const OIIO::ParamValue& value : spec.extra_attribs) {
     const bool is_text = value.type() == OIIO::TypeDesc::STRING;
-    if (is_text) text(context, value.name().c_str(), value.get_ustring().c_str());
+    if (is_text) text(context, value.name().c_str(), value.get_string().c_str());
   }
 }
 
@@ -160,6 +161,8 @@ int decode(const char* format, const char* bytes, size_t size, int64_t max_megab
   const std::string too_large = refusal(seen, any_size, max_megabytes, max_channels);
   if (!too_large.empty()) return fail(too_large);
   if (text) tell_texts(spec, text, text_context);
+  const std::string profile = text ? sphparam::other_profile(spec) : "";
+  if (!profile.empty()) text(text_context, sphparam_other_profile, profile.c_str());
   float* const pixels = room(room_context, seen.width, seen.height, seen.nchannels);
   if (!pixels) return fail(sphparam_image_no_memory);
   std::vector<float> apart;
