@@ -185,6 +185,10 @@ TEST_CASE("mesh_defects: corners at both ends of the doubles are measured, as fa
   CHECK(inspection.defects.empty());
   CHECK(inspection.area == std::numeric_limits<double>::infinity());
   CHECK(inspection.volume == std::numeric_limits<double>::infinity());
+  mesh = octahedron();
+  mesh.positions = (mesh.positions.array() + 1) * std::numeric_limits<double>::denorm_min();
+  CHECK(inspect_mesh(mesh).area == 0);
+  CHECK(inspect_mesh(mesh).volume == 0);
 }
 
 TEST_CASE("mesh_defects: an unused vertex, however far off, changes no size") {

@@ -155,7 +155,7 @@ class Inspector {
   double scaled_area(Face f) const {
     const Vector3 half = mesh_.position(corner(f, 0)) / 2;
     const auto side = [&](int k) -> Vector3 {
-      return (mesh_.position(corner(f, k)) / 2 - half) / (scale_ / 2);
+      return 2 * ((mesh_.position(corner(f, k)) / 2 - half) / scale_);
     };
     return triangle_area(Vector3::Zero(), side(1), side(2));
   }
