@@ -128,6 +128,8 @@ TEST_CASE("picture: options outside of their domains are refused") {
   for (const double bad : {-1.0, std::nan("")}) refused({.size = 16, .height = bad});
   for (const Vector3& bad : {Vector3(0, 0, 0), Vector3(std::nan(""), 0, 1)})
     refused({.from = bad, .size = 16});
+  refused({.range = std::pair(1.0, 1.0), .size = 16});
+  refused({.range = std::pair(std::nan(""), 1.0), .size = 16});
   refused({.view = static_cast<View>(3), .size = 16});
   refused({.colouring = static_cast<Colouring>(6), .size = 16});
 }

@@ -56,6 +56,28 @@ TEST_CASE(
   CHECK(both.high > 100);
 }
 
+TEST_CASE("value_paint: a scale says whether values lie beyond it, and may be given") {
+  MeshFile file = ball();
+  file.set_vertex_property(ramp(file, 1));
+  const double last = static_cast<double>(file.mesh.vertex_count() - 1);
+  const HeatScale own = *value_paint(file, "ramp").scale;
+  CHECK(own.below);
+  CHECK(own.above);
+  const ValuePaint all = value_paint(file, "ramp", std::pair(0.0, last));
+  CHECK_FALSE(all.scale->below);
+  CHECK_FALSE(all.scale->above);
+  CHECK(all.scale->low == 0);
+  CHECK(all.scale->high == last);
+  CHECK(all.paint.colours.back() == heat_colour(*all.scale, last));
+  const HeatScale part = *value_paint(file, "ramp", std::pair(-5.0, 5.0)).scale;
+  CHECK(part.diverges());
+  CHECK_FALSE(part.below);
+  CHECK(part.above);
+  MeshFile flat = ball();
+  flat.set_vertex_property(ramp(flat, 0, 3));
+  CHECK_FALSE(value_paint(flat, "ramp").scale->above);
+}
+
 TEST_CASE("value_paint: numbers that are missing are grey and move no scale") {
   MeshFile file = ball();
   Property values = ramp(file, 1);

@@ -1,7 +1,10 @@
 // `sphparam render`: pictures of a mesh and of its map, side by side, in the same colours, so that
 // one sees where each part of the shape went.
 
+#include <charconv>
+#include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "arguments/limits.h"
 #include "commands/command.h"
@@ -42,6 +45,7 @@ struct RenderArguments : CommonArguments {
   std::string output;
   std::string texture;  // empty: none
   std::string from;     // empty: in front, to the right, above
+  std::string range;    // empty: as the numbers are
   Words data;           // numbers a vertex in files of their own
   DrawingOptions drawing = {};
   RepairArguments repair;
@@ -52,6 +56,21 @@ Vector3 parse_direction(const std::string& text) {
   const Vector3 direction = numbers ? Vector3(numbers->data()) : Vector3::Zero();
   if (direction.isZero(0)) throw UsageMistake("--from: expected a direction, as in 1,-0.6,0.45");
   return direction;
+}
+
+std::pair<double, double> parse_range(const std::string& text) {
+  const Words words = split(text);
+  std::pair<double, double> range;
+  const auto read = [&words](size_t i, double& value) {
+    const char* const first = words[i].data() + words[i].starts_with('+');
+    std::from_chars(first, words[i].data() + words[i].size(), value);
+    return complaint_of_number(words[i], Range<double>{std::numeric_limits<double>::lowest()})
+        .empty();
+  };
+  if (words.size() != 2 || !read(0, range.first) || !read(1, range.second) ||
+      !(range.first < range.second))
+    throw UsageMistake("--range: expected two numbers, the smaller one first, as in -0.1,0.1");
+  return range;
 }
 
 /// Throws UsageMistake where something is wanted that only a map has.
@@ -98,6 +117,9 @@ std::string drawn(DrawnMesh& mesh, const RenderArguments& arguments, Session& se
   DrawingOptions drawing = arguments.drawing;
   drawing.scalar = shown_number(mesh, arguments, session);
   drawing.threads = session.threads();
+  if (!arguments.range.empty()) drawing.range = parse_range(arguments.range);
+  if (drawing.range && drawing.scalar.empty())
+    throw UsageMistake("--range is the scale of --scalar or --data: name a number a vertex");
   if (!arguments.from.empty()) drawing.from = parse_direction(arguments.from);
   const bool shows_own = drawing.colouring == Colouring::Own && drawing.scalar.empty();
   if (shows_own && arguments.texture.empty()) {
@@ -150,6 +172,8 @@ void declare_look(Declaration& command, RenderArguments& arguments) {
       .data(arguments.data)
       .text("--scalar", drawing.scalar, "NAME",
             "The number a vertex that is shown as colours (default: the first of --data)")
+      .text("--range", arguments.range, "MIN,MAX",
+            "The scale of that number (default: its 2nd to its 98th percentile)")
       .text("--texture", arguments.texture, "IMAGE",
             "Image for the mesh's texture coordinates, instead of its own")
       .flag("--wire", drawing.wireframe, "The edges of the triangles")

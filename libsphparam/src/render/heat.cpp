@@ -48,12 +48,25 @@ std::vector<Tick> powers(const HeatScale& scale, int step) {
   return all;
 }
 
-/// The ends and, where wanted, the middle.
+/// With so many digits.
+std::vector<Tick> labelled(const std::vector<double>& values, int digits) {
+  std::vector<Tick> all;
+  for (const double value : values) all.push_back({value, short_number(value, digits)});
+  return all;
+}
+
+/// The ends and, where wanted, the middle, with as many digits as tell them apart.
 std::vector<Tick> ends(const HeatScale& scale, bool middle) {
   std::vector<double> values{scale.low, scale.high};
   if (middle) values.insert(values.begin() + 1, value_at(scale, 0.5));
-  std::vector<Tick> all;
-  for (const double value : values) all.push_back({value, short_number(value)});
+  constexpr int fewest = 3, most = 17;
+  std::vector<Tick> all = labelled(values, fewest);
+  for (int digits = fewest + 1; digits <= most; ++digits) {
+    if (std::ranges::adjacent_find(all, {}, &Tick::label) == all.end()) break;
+    if (scale.low < scale.high) all = labelled(values, digits);
+  }
+  if (scale.below) all.front().label = "<" + all.front().label;
+  if (scale.above) all.back().label = ">" + all.back().label;
   return all;
 }
 

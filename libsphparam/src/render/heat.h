@@ -14,6 +14,8 @@ struct HeatScale {
   std::string title;
   double low, high;
   bool log_ratios = false;  // values are log₂ of the ratios that the scale shows
+  // Whether values lie beyond an end, which its number says then: "≤ 0.1", "≥ 0.9". Not of ratios.
+  bool below = false, above = false;
 
   bool diverges() const { return low == -high; }
 };

@@ -4,7 +4,8 @@
 #include <array>
 
 // Letters of 5 × 9 dots, a row a number, the leftmost dot the highest bit; two rows hang below the
-// line. Our own, so that pictures need no font and are the same everywhere.
+// line. Our own, so that pictures need no font and are the same everywhere. '<' and '>' are drawn
+// as "at most" and "at least".
 
 namespace sphparam {
 namespace {
@@ -16,7 +17,7 @@ struct Glyph {
   std::array<unsigned char, row_count> rows;
 };
 
-constexpr std::array<Glyph, 41> glyphs{{
+constexpr std::array<Glyph, 43> glyphs{{
     {'0', {14, 17, 19, 21, 25, 17, 14, 0, 0}}, {'1', {4, 12, 4, 4, 4, 4, 14, 0, 0}},
     {'2', {14, 17, 1, 2, 4, 8, 31, 0, 0}},     {'3', {14, 17, 1, 6, 1, 17, 14, 0, 0}},
     {'4', {2, 6, 10, 18, 31, 2, 2, 0, 0}},     {'5', {31, 16, 30, 1, 1, 17, 14, 0, 0}},
@@ -37,7 +38,8 @@ constexpr std::array<Glyph, 41> glyphs{{
     {'t', {8, 8, 28, 8, 8, 9, 6, 0, 0}},       {'u', {0, 0, 17, 17, 17, 19, 13, 0, 0}},
     {'v', {0, 0, 17, 17, 17, 10, 4, 0, 0}},    {'w', {0, 0, 17, 17, 21, 21, 10, 0, 0}},
     {'x', {0, 0, 17, 10, 4, 10, 17, 0, 0}},    {'y', {0, 0, 17, 17, 17, 17, 15, 1, 14}},
-    {'z', {0, 0, 31, 2, 4, 8, 31, 0, 0}},
+    {'z', {0, 0, 31, 2, 4, 8, 31, 0, 0}},      {'<', {2, 4, 8, 4, 2, 0, 15, 0, 0}},
+    {'>', {8, 4, 2, 4, 8, 0, 15, 0, 0}},
 }};
 
 void fill(Image& image, int x0, int y0, int size, const Rgb& colour) {

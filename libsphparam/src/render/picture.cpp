@@ -49,6 +49,8 @@ void require_domain(const DrawingOptions& options) {
   require_one_of("colouring", options.colouring, Colouring::Angle);
   require_between("size", options.size, least_size, most_size);
   require_at_least("height", options.height, 0);
+  if (const auto& range = options.range; range && !(range->first < range->second))
+    throw std::invalid_argument("range: its first number must be the smaller one");
   if (!options.from) return;
   for (const double coordinate : *options.from) require_finite("from", coordinate);
   if (options.from->isZero(0)) throw std::invalid_argument("from: 0, 0, 0 is no direction");
@@ -122,7 +124,7 @@ class Drawing {
     if (options_.scalar.empty()) {
       paint = make_paint();
     } else {
-      ValuePaint values = value_paint(file_, options_.scalar);
+      ValuePaint values = value_paint(file_, options_.scalar, options_.range);
       paint = std::move(values.paint);
       scale = std::move(values.scale);
     }

@@ -60,13 +60,22 @@ HeatScale scale_of(const Property& property) {
   return {property.name, -reach, reach};
 }
 
+void note_values_beyond(const Property& property, HeatScale& scale) {
+  for (const double value : property.values) {
+    scale.below |= value < scale.low;
+    scale.above |= value > scale.high;
+  }
+}
+
 }  // namespace
 
-ValuePaint value_paint(const MeshFile& file, const std::string& property) {
+ValuePaint value_paint(const MeshFile& file, const std::string& property,
+                       const std::optional<std::pair<double, double>>& range) {
   const Property& shown = *file.find_vertex_property(property);
   if (const std::vector<Label> labels = labels_of(file, shown); !labels.empty())
     return {label_paint(shown, labels), std::nullopt};
-  HeatScale scale = scale_of(shown);
+  HeatScale scale = range ? HeatScale{shown.name, range->first, range->second} : scale_of(shown);
+  note_values_beyond(shown, scale);
   VertexPaint paint;
   for (const double value : shown.values)
     paint.colours.push_back(std::isfinite(value) ? heat_colour(scale, value) : unknown);

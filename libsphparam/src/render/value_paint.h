@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "render/heat.h"
 #include "render/render.h"
@@ -19,9 +20,10 @@ struct ValuePaint {
 /// with the surface ("gifti label"), never mixed between vertices; a label without a colour is
 /// grey. What is measured goes from dark to yellow between the 2nd and the 98th percentile, from
 /// blue by white to red where that range has 0 inside; a few vertices that stand out would leave
-/// one colour for all others. Numbers that are missing are grey. Without a table, whole numbers are
-/// measured.
+/// one colour for all others; or over a range that is given. The scale says whether values lie
+/// beyond. Numbers that are missing are grey. Without a table, whole numbers are measured.
 /// Requires: the property is there. Cost: O(#V), expected.
-ValuePaint value_paint(const MeshFile& file, const std::string& property);
+ValuePaint value_paint(const MeshFile& file, const std::string& property,
+                       const std::optional<std::pair<double, double>>& range = {});
 
 }  // namespace sphparam

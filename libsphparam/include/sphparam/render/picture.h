@@ -48,6 +48,9 @@ struct DrawingOptions {
   std::optional<View> view = std::nullopt;  // nothing: both where there is a map
   Colouring colouring = Colouring::Own;
   std::string scalar = {};  // a number a vertex, shown instead of the colouring; empty: none
+  // The scale of what is measured; nothing: its 2nd to its 98th percentile. Numbers, the first the
+  // smaller one; where they are −x and x, colours go from blue by white to red.
+  std::optional<std::pair<double, double>> range = std::nullopt;
   std::optional<Vector3> from = std::nullopt;  // where the eye is, finite, not 0; nothing: a little
                                                // to the right, and above
   Up up = {};                                  // of the mesh; nothing: as its file says
