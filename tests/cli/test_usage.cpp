@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "program.h"
@@ -81,6 +82,34 @@ TEST_CASE(
     CHECK(ended.code == 3);
     CHECK_THAT(ended.err, Contains("nowhere.ply: No such file") && !Contains("mapped now"));
     CHECK(folder.names() == Words{"ball.obj"});
+  }
+}
+
+TEST_CASE("program: what a mesh lacks, and what is no word, is told before it is mapped") {
+  const Folder folder;
+  const std::string mesh = folder / "ball.obj", image = folder / "image.png";
+  write_bytes(mesh, obj_text(icosphere(1)));
+  write_bytes(image, "no image");
+  using Words = std::vector<std::string>;
+  for (const auto& [words, code, message] : std::vector<std::tuple<Words, int, std::string>>{
+           {{"paint", mesh, "--image", image, "--atlas", "16", "-o", folder / "out.png"},
+            2,
+            "--atlas: the mesh has no texture coordinates"},
+           {{"export", mesh, "--source-uv", "-o", folder / "out.glb"},
+            2,
+            "--source-uv: the mesh has no texture coordinates"},
+           {{"export", mesh, "--variants", "cheker", "-o", folder / "out.glb"},
+            2,
+            "did you mean checker?"},
+           {{"export", mesh, "--images", folder / "nowhere", "-o", folder / "out.glb"},
+            3,
+            "nowhere: No such file"},
+           {{"spharm", mesh, "--scalar", "thicknes"}, 2, "have no property thicknes"}}) {
+    const Ended ended = sphparam_program(words);
+    INFO(words.front() << ": " << ended.err);
+    CHECK(ended.code == code);
+    CHECK_THAT(ended.err, Contains(message) && !Contains("mapped now"));
+    CHECK(folder.names() == Words{"ball.obj", "image.png"});
   }
 }
 

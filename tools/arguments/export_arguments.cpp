@@ -92,6 +92,7 @@ void check_export_arguments(const ExportArguments& a) {
     throw UsageMistake("-o: expected .glb, .gltf, .obj or .ply, not " +
                        (extension.empty() ? output_name(a.output) : extension));
   }
+  for (const std::string& name : look.variants) place_among(variant_names(), name, "--variants");
   refuse(
       a.all_components && (is_stream(a.output) || !a.sphere.empty() || !look.folder.empty()),
       "--all-components writes several files: give -o a name, and leave out --sphere and --images");

@@ -76,8 +76,6 @@ void check_first_places(const ExportArguments& arguments) {
 }
 
 Look look_of(const MappedMesh& mapped, const ExportOptions& options) try {
-  for (const std::string& name : options.look.variants)
-    place_among(variant_names(), name, "--variants");
   return make_look(mapped, options);
 } catch (const LookError& error) {
   throw UsageMistake(error.what());
@@ -98,8 +96,6 @@ class Exporter {
       : arguments_(arguments), session_(session), options_(export_options(arguments, session)) {}
 
   void add(const MappedMesh& mapped) try {
-    if (options_.source_uv && !has_texcoords(mapped.file()))
-      throw UsageMistake("--source-uv: the mesh has no texture coordinates of its own");
     const Look look = look_of(mapped, options_);
     record_.textures = look.textures;
     const std::string kind = extension_of(arguments_.output);
@@ -247,13 +243,21 @@ ExportArguments of_part(ExportArguments arguments, int part) {
   return arguments;
 }
 
+/// The mesh with its map; what it lacks is told before it is mapped.
+MappedMesh read_exported(const ExportArguments& arguments, Session& session) {
+  session.hold_signals();
+  MeshSource source = read_mended(arguments.input, arguments.repair, session);
+  if (arguments.exported.source_uv && !has_texcoords(source.file))
+    throw UsageMistake("--source-uv: the mesh has no texture coordinates of its own");
+  return map_source(std::move(source), arguments.sphere, session, arguments.repair);
+}
+
 std::string export_one(const ExportArguments& arguments, Session& session, Words& lines) {
   check_first_places(arguments);
   const LookOptions& look = arguments.exported.look;
   require_there({arguments.input, arguments.sphere, look.texture, look.normal, look.occlusion,
-                 look.orm, look.emissive});
-  const MappedMesh mapped =
-      read_mapped(arguments.input, arguments.sphere, session, arguments.repair);
+                 look.orm, look.emissive, look.folder});
+  const MappedMesh mapped = read_exported(arguments, session);
   Exporter exporter(arguments, session);
   with_file_errors(arguments.input, arguments.output, [&] { exporter.add(mapped); });
   lines.push_back(display_name(arguments.input) + ": " + short_number(session.stopwatch.seconds()) +

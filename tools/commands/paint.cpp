@@ -3,6 +3,8 @@
 
 #include "sphparam/paint/paint.h"
 
+#include <utility>
+
 #include "commands/command.h"
 #include "commands/sources.h"
 #include "console/places.h"
@@ -92,15 +94,21 @@ Words add_coloured_mesh(const PaintArguments& arguments, const MappedMesh& sourc
                   {.origin = arguments.input});
 }
 
+/// The mesh with its map; what it lacks is told before it is mapped.
+MappedMesh read_painted(const PaintArguments& arguments, Session& session) {
+  session.hold_signals();
+  MeshSource source = read_mended(arguments.input, arguments.repair, session);
+  if (arguments.atlas > 0 && !has_texcoords(source.file))
+    throw UsageMistake("--atlas: the mesh has no texture coordinates of its own");
+  return map_source(std::move(source), arguments.sphere, session, arguments.repair);
+}
+
 int run_paint(PaintArguments& arguments) {
   require_sensible(arguments);
   require_there({arguments.input, arguments.image, arguments.sphere});
   Session session(arguments);
-  const MappedMesh source =
-      read_mapped(arguments.input, arguments.sphere, session, arguments.repair);
+  const MappedMesh source = read_painted(arguments, session);
   tell_longitudes(source, arguments.convention, false, std::nullopt, session);
-  if (arguments.atlas > 0 && !has_texcoords(source.file()))
-    throw UsageMistake("--atlas: the mesh has no texture coordinates of its own");
   const EquirectangularImage image = read_picture(arguments, session.console);
   Words losses;
   if (arguments.atlas > 0) {

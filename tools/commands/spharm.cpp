@@ -1,6 +1,8 @@
 // `sphparam spharm`: the surface, and what it carries, as a sum of spherical harmonics: the shape
 // description that a map to the sphere was first made for (Brechbühler, Gerig, Kübler 1995).
 
+#include <utility>
+
 #include "arguments/mesh_names.h"
 #include "commands/command.h"
 #include "commands/sources.h"
@@ -71,7 +73,6 @@ std::optional<Vector3> centre_of_radius(const SpharmArguments& arguments, const 
 HarmonicExpansion expand(const SpharmArguments& arguments, const MappedMesh& mapped,
                          Session& session) {
   require_measurable(mapped.mesh());
-  require_scalars(mapped.file(), arguments.scalars);
   tell_counted_fillers(mapped, "these harmonics", session.console);
   HarmonicExpansion expansion = expand_in_harmonics(mapped, arguments.scalars,
                                                     {.degree = arguments.degree,
@@ -138,12 +139,19 @@ void warn_of_few_vertices(const SpharmArguments& arguments, const MeshFile& file
                   " vertices: what these leave open is as in --fit quadrature");
 }
 
+/// The mesh with its map; what it lacks is told before it is mapped.
+MappedMesh read_expanded(const SpharmArguments& arguments, Session& session) {
+  session.hold_signals();
+  MeshSource source = read_mended(arguments.input, arguments.repair, session);
+  require_scalars(source.file, arguments.scalars);
+  return map_source(std::move(source), arguments.sphere, session, arguments.repair);
+}
+
 int run_spharm(SpharmArguments& arguments) {
   require_sensible(arguments);
   require_there({arguments.input, arguments.sphere, arguments.flips});
   Session session(arguments);
-  const MappedMesh mapped =
-      read_mapped(arguments.input, arguments.sphere, session, arguments.repair);
+  const MappedMesh mapped = read_expanded(arguments, session);
   warn_of_few_vertices(arguments, mapped.file(), session.console);
   HarmonicExpansion expansion = expand(arguments, mapped, session);
   align_as_asked(arguments, mapped, expansion, session);
