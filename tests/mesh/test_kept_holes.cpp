@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "mesh/paired_faces.h"
 #include "sphparam/mesh/mesh_repair.h"
 #include "sphparam/mesh/topology.h"
 #include "support/test_meshes.h"
@@ -154,6 +155,20 @@ TEST_CASE("kept holes: once closed, nothing is left to do, nothing is turned ove
   for (Face f = 0; f < inside_out.face_count(); ++f) {
     REQUIRE(closed.face_origin[static_cast<size_t>(f)] == f);
   }
+}
+
+TEST_CASE("kept holes: what a filler is cut into are fillers, and what a face is are none") {
+  const TriangleMesh mesh = octahedron();
+  const Topology topology(mesh);
+  RepairState state(mesh);
+  std::vector<Halfedge> twin;
+  for (Halfedge h = 0; h < topology.halfedge_count(); ++h) twin.push_back(topology.twin(h));
+  state.fillers[0] = 1;
+  PairedFaces faces(state, twin);
+  faces.split(0);
+  REQUIRE(state.face_count() == 10);
+  CHECK(std::count(state.fillers.begin(), state.fillers.end(), 1) == 2);
+  CHECK(state.fillers[0] + state.fillers[8] + state.fillers[9] == 2);
 }
 
 TEST_CASE("kept holes: handles go where there are holes too, along loops on the surface") {

@@ -65,6 +65,7 @@ Halfedge PairedFaces::split_side(Halfedge h, Vertex middle) {
   const int like_middle = state_.blend(state_.corner_like(h), like_y, 0.5);
   state_.add_face({middle, y, z}, {like_middle, like_y, state_.corner_like(beyond)});
   state_.face_origin[added] = state_.face_origin[f];
+  state_.fillers[added] = state_.fillers[f];
   state_.faces[f][along % 3] = middle;
   state_.corner_origin[f][along % 3] = like_middle;
   twin_.resize(twin_.size() + 3, -1);
