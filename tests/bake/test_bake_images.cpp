@@ -117,6 +117,20 @@ TEST_CASE("bake images: a heat map of what heat has no colours for is numbers, w
             "height: numbers, not colours: heat is of distortion and curvature"});
 }
 
+TEST_CASE("bake images: a mesh that is inside out is told, and rays that met nothing") {
+  const Folder folder;
+  MeshFile file;
+  file.mesh = icosphere(2);
+  SphereMap map{-file.mesh.positions};
+  file.mesh.triangles.col(1).swap(file.mesh.triangles.col(2));
+  const MappedMesh inverted({.file = std::move(file), .map = std::move(map), .name = "egg"});
+  const BakeReport report = bake(inverted, {{"thickness", folder / "t.png"}}, small);
+  REQUIRE(report.warnings.size() == 2);
+  CHECK_THAT(report.warnings[0], Catch::StartsWith("the mesh is inside out: "));
+  CHECK_THAT(report.warnings[1], Catch::StartsWith("thickness: 100 % of the rays met nothing"));
+  CHECK(bake(egg(2), {{"thickness", folder / "t.png"}}, small).warnings.empty());
+}
+
 TEST_CASE("bake images: far from the origin integers keep the digits that float32 has not") {
   const Folder folder;
   const double far = 4194304;  // 2^22: float32 is 0.5 apart there

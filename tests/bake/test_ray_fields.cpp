@@ -220,6 +220,23 @@ TEST_CASE("ray fields: rays that meet nothing are as long as their reach") {
   CHECK(values[0] == Approx(2.5));
 }
 
+TEST_CASE("ray fields: how many rays inwards met nothing is told") {
+  TriangleMesh sheet{Points(3, 3), Triangles(1, 3)};
+  sheet.positions << 0, 0, 0, 3, 0, 0, 0, 4, 0;
+  sheet.triangles << 0, 1, 2;
+  const Subject open = {sheet, area_weighted_normals(sheet)};
+  const SurfaceField field = open.field(thickness_field, {.reach = 1});
+  CHECK(field.remark().empty());  // none were cast yet
+  values_of(field, {at_middle(0, 1)});
+  CHECK(field.remark() ==
+        "thickness: 100 % of the rays met nothing, and count as the mesh's whole diagonal: it has "
+        "holes there, or is inside out");
+  const Subject round = ball(2);
+  const SurfaceField closed = round.field(thickness_field, {.reach = 1});
+  values_of(closed, one_a_face(round.mesh));
+  CHECK(closed.remark().empty());
+}
+
 TEST_CASE("ray fields: the same bytes whoever evaluates them and in whatever parts") {
   Vertex bottom = 0;
   const Subject deep = cup(32, 0.2, &bottom);

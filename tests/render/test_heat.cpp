@@ -102,8 +102,8 @@ TEST_CASE(
   CHECK(numbers(160, wide) == dots({"0.00123", "0.00568"}));
   const HeatScale narrow{"x", 0.09996, 0.1}, beyond{"x", 0, 0.5, false, true, true};
   CHECK(numbers(400, narrow) == dots({"0.09996", "0.09998", "0.1"}));
-  CHECK(numbers(200, beyond) == dots({"<0", "0.25", ">0.5"}));
-  CHECK(numbers(200, {"x", 0, 0.5, false, false, true}) == dots({"0", "0.25", ">0.5"}));
+  CHECK(numbers(200, beyond) == dots({"< 0", "0.25", "> 0.5"}));
+  CHECK(numbers(200, {"x", 0, 0.5, false, false, true}) == dots({"0", "0.25", "> 0.5"}));
 }
 
 TEST_CASE("draw_text: dots of the letters, as large as asked, cut off at the rim") {

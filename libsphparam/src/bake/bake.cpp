@@ -77,6 +77,29 @@ void report_projection(const BakeScene& scene, const BakeSettings& settings, Bak
       short_number(relative_size(scene)) + " times as long: are they in the same place?");
 }
 
+void add_line(BakeReport& report, std::string line) {
+  if (!line.empty()) report.warnings.push_back(std::move(line));
+}
+
+std::string remark_of(const SurfaceField& field) { return field.remark ? field.remark() : ""; }
+
+/// Of a closed mesh whose faces look inwards, so that normals, rays and curvature do; else empty.
+std::string turning_line(const TriangleMesh& mesh) {
+  const double side = longest_side(mesh);
+  const Vector3 origin = mesh.position(0);
+  double volume = 0;  // of a mesh of length 1, sixfold
+  for (Face f = 0; f < mesh.face_count(); ++f) {
+    const auto corner = [&](int k) {
+      return Vector3((mesh.position(mesh.triangles(f, k)) - origin) / side);
+    };
+    volume += corner(0).dot(corner(1).cross(corner(2)));
+  }
+  constexpr double rounding = 1e-9;
+  return volume < -rounding ? "the mesh is inside out: normals, rays and curvature are of its "
+                              "inside (a repair of its orientation turns it over)"
+                            : "";
+}
+
 bool needs_textures(const std::string& field) { return field == "basecolor"; }
 
 ImageTexts texts_of_all(const MappedMesh& source, const BakeSettings& settings) {
@@ -126,6 +149,7 @@ BakeReport bake(const MappedMesh& source, const std::vector<BakeRequest>& images
   ChosenTarget chosen = choose_target(source, settings);
   BakeReport report{
       .images = {}, .target_distance = chosen.distance, .warnings = std::move(chosen.warnings)};
+  if (!settings.from) add_line(report, turning_line(source.mesh()));
   const bool with_textures =
       std::ranges::any_of(images, [](const auto& image) { return needs_textures(image.field); });
   BakeScene scene = scene_for(source, std::move(chosen.target), with_textures, settings);
@@ -144,6 +168,7 @@ BakeReport bake(const MappedMesh& source, const std::vector<BakeRequest>& images
   find_ranges(plan, scene, settings);
   const std::vector<double> beyond =
       write_images(plan, scene, settings, texts_of_all(source, settings), files);
+  for (const PlannedImage& image : plan) add_line(report, remark_of(image.field));
   for (size_t i = 0; i < plan.size(); ++i) report.images.push_back(told(plan[i], beyond[i]));
   add_sidecars(plan, source, scene, settings, files, report);
   return report;

@@ -111,6 +111,7 @@ BakedFile::BakedFile(const SurfaceField& field, const BakedFileOptions& options,
     : field_(field), options_(options), writer_(file_options(field, options), std::move(file)) {
   field_.evaluate = {};
   field_.evaluate_runs = {};
+  field_.remark = {};
   if (options.tiles) {
     next_level_ =
         std::make_unique<ImageLevel>(options.width, options.height, field.channels, field.kind);

@@ -97,6 +97,9 @@ struct SurfaceField {
                      float* values)>
       amend = {};
 
+  /// What is to be told once all values are there; null, or an empty text: nothing.
+  std::function<std::string()> remark = {};
+
   /// Of the values proper: those of the kind.
   int proper_channels() const { return has_coverage ? channels - 1 : channels; }
   bool is_far() const { return origin != std::array<double, 3>{}; }

@@ -4,6 +4,8 @@
 
 #include "bake/fields/ray_fields.h"
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -12,6 +14,7 @@
 #include "bake/field_registry.h"
 #include "bake/projected_surface.h"
 #include "mesh/float32_size.h"
+#include "number_text.h"
 #include "rays/cosine_rays.h"
 #include "rays/flat_normal.h"
 
@@ -76,6 +79,21 @@ struct Bundle {
 
   std::vector<Eigen::Vector3f> wanted;  // about the smooth normal
   std::vector<Eigen::Vector3f> cast;    // none of them into its own triangle
+};
+
+/// How many rays went inwards, and met nothing. Sums: the same in whatever order.
+struct RayCounts {
+  std::atomic<std::int64_t> cast = 0, missed = 0;
+
+  std::string remark() const {
+    constexpr double harmless = 0.01;
+    if (cast == 0) return "";
+    const double share = static_cast<double>(missed) / static_cast<double>(cast);
+    if (share <= harmless) return "";
+    return "thickness: " + percent(share) +
+           " of the rays met nothing, and count as the mesh's whole diagonal: it has holes there, "
+           "or is inside out";
+  }
 };
 
 RayCaster caster_of(std::shared_ptr<const RayScene> scene, const TriangleMesh& mesh,
@@ -154,15 +172,20 @@ SurfaceField bent_normal_field(std::shared_ptr<const RayScene> scene, const Tria
 SurfaceField thickness_field(std::shared_ptr<const RayScene> scene, const TriangleMesh& mesh,
                              const Points& normals, const RayFieldOptions& options) {
   const RayCaster caster = caster_of(std::move(scene), mesh, normals, options);
-  const auto evaluate = [caster](std::span<const SurfaceSample> samples, float* values) {
+  const auto counts = std::make_shared<RayCounts>();
+  const auto evaluate = [caster, counts](std::span<const SurfaceSample> samples, float* values) {
     Bundle bundle(caster);
     std::vector<float> distances(bundle.cast.size());
+    const auto beyond = static_cast<float>(caster.reach * (1 - 1e-5));  // but for roundings
     for (size_t i = 0; i < samples.size(); ++i) {
       const Start start = caster.start(samples[i], Side::Inwards);
       bundle.aim(caster, start, samples[i].seed);
       caster.scene->find_distances(start.origin, bundle.cast, caster.reach, distances);
       double sum = 0;
       for (const float distance : distances) sum += distance;
+      counts->cast += std::ssize(distances);
+      counts->missed +=
+          std::ranges::count_if(distances, [beyond](float way) { return way >= beyond; });
       values[i] = static_cast<float>(sum / static_cast<double>(distances.size()));
     }
   };
@@ -170,7 +193,8 @@ SurfaceField thickness_field(std::shared_ptr<const RayScene> scene, const Triang
           .channels = 1,
           .kind = FieldKind::Data,
           .about = "mean way inwards, cosine-weighted, units of the mesh, " + reach_text(options),
-          .evaluate = evaluate};
+          .evaluate = evaluate,
+          .remark = [counts] { return counts->remark(); }};
 }
 
 namespace {

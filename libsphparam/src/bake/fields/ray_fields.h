@@ -36,7 +36,8 @@ SurfaceField bent_normal_field(std::shared_ptr<const RayScene> scene, const Tria
                                const Points& normals, const RayFieldOptions& options);
 
 /// The mean way of such rays inwards, about the opposite of the normal, to the next surface, at
-/// most `reach`: 4/3 of its radius in a ball, twice its thickness in a wide slab.
+/// most `reach`: 4/3 of its radius in a ball, twice its thickness in a wide slab. Its remark says
+/// how many met nothing, where those are more than one in a hundred.
 SurfaceField thickness_field(std::shared_ptr<const RayScene> scene, const TriangleMesh& mesh,
                              const Points& normals, const RayFieldOptions& options);
 
