@@ -16,6 +16,7 @@
 #include "mesh/triangle_geometry.h"
 #include "mesh/union_find.h"
 #include "render/drawing_size.h"
+#include "sphparam/errors.h"
 #include "sphparam/render/picture.h"
 
 namespace sphparam {
@@ -89,6 +90,14 @@ std::set<Edge> places_of(const MeshSource& source) {
   return places;
 }
 
+std::string drawn(const MeshFile& file, const DrawingOptions& drawing) try {
+  return draw_png(file, std::nullopt, drawing);
+} catch (const Cancelled&) {
+  throw;
+} catch (const std::runtime_error& error) {
+  throw PictureError(error.what());
+}
+
 class Scene {
  public:
   Scene(const MeshSource& source, const std::vector<HandleLoop>& handles)
@@ -131,7 +140,7 @@ class Scene {
     drawing.size = options.picture_size;
     drawing.threads = options.threads;
     drawing.from = side();
-    return draw_png(file, std::nullopt, drawing);
+    return drawn(file, drawing);
   }
 
   /// Where the eye is: on the side of the beads, and a little above. Nothing: they are all about.
@@ -226,7 +235,7 @@ std::string picture_of_mended(const MeshFile& file, const std::optional<Vector3>
   drawing.repairs = true;
   drawing.size = options.picture_size;
   drawing.threads = options.threads;
-  return draw_png(shown, std::nullopt, drawing);
+  return drawn(shown, drawing);
 }
 
 }  // namespace sphparam

@@ -11,7 +11,6 @@
 
 #include "number_text.h"
 #include "sphparam/errors.h"
-#include "sphparam/image/image_format.h"
 #include "sphparam/io/components.h"
 #include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/mesh_source.h"
@@ -59,7 +58,7 @@ class Surveyor {
       end(SurveyEnd::Unreadable, error.what());
     } catch (const std::bad_alloc&) {
       end(SurveyEnd::Stopped, no_memory);
-    } catch (const ImageError& error) {  // of this machine: no mesh is to blame for it
+    } catch (const PictureError& error) {
       end(SurveyEnd::Stopped,
           std::string("its pictures cannot be made (`--size 0` makes none): ") + error.what());
     } catch (const std::exception& error) {  // of this file, not of the survey
@@ -114,7 +113,7 @@ class Surveyor {
       way();
     } catch (const Cancelled&) {
       throw;
-    } catch (const ImageError&) {
+    } catch (const PictureError&) {
       throw;
     } catch (const std::bad_alloc&) {
       failed(no_memory);
