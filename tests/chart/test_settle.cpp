@@ -97,6 +97,12 @@ TEST_CASE("settle: crowds on the seam and at the poles") {
   }
 }
 
+TEST_CASE("settle: the caller is asked, and what it throws comes back") {
+  std::mt19937 random(31);
+  const SphericalChart chart = crowded_chart(1e-9, random);
+  CHECK_THROWS_AS(settled(chart, 1, [] { throw Cancelled(); }), Cancelled);
+}
+
 TEST_CASE("settle: a chart that float32 holds is rounded and nothing more") {
   const TriangleMesh mesh = uv_sphere(12, 5);
   const SphericalChart before = chart_of(mesh, {mesh.positions});

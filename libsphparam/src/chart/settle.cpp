@@ -29,14 +29,15 @@ constexpr double longest_taken_out = 4096;  // cells: an edge on the sphere, a t
 constexpr double deepest = -64;             // cells: deeper folds are no rounding
 constexpr double narrow = 0x1p-6;           // cells: what easing leaves lower is spread at once
 constexpr int rings_to_unbend[] = {4, 8, 16};
-constexpr size_t most_unbent = 3000;  // vertices at once: more take too long
+constexpr size_t most_at_once = 3000;  // vertices: more take too long, and hardly ever find room
+constexpr size_t vertices_an_answer = 256;  // that are put back before the caller is asked again
 constexpr int fewest_rings = 8, most_rings = 128;
 constexpr int landing_cells = 3;
 
 class Settling {
  public:
-  Settling(const SphericalChart& chart, int threads)
-      : points_(chart.points), sheet_(chart, threads), easing_(sheet_) {}
+  Settling(const SphericalChart& chart, int threads, const std::function<void()>& ask)
+      : points_(chart.points), ask_(ask), sheet_(chart, threads), easing_(sheet_) {}
 
   void run() {
     if (is_deep()) unbend_folds();
@@ -52,6 +53,10 @@ class Settling {
   const Sheet& sheet() const { return sheet_; }
 
  private:
+  void ask() const {
+    if (ask_) ask_();
+  }
+
   bool is_deep() const {
     for (Face f = 0; f < sheet_.face_count(); ++f) {
       if (sheet_.height(f) < deepest) return true;
@@ -64,7 +69,8 @@ class Settling {
       const std::vector<Face> folded = folded_faces();
       if (folded.empty()) return;
       for (const auto& region : regions_around(folded, rings)) {
-        if (region.size() > most_unbent) return;
+        if (region.size() > most_at_once) return;
+        ask();
         unbend(sheet_, region, Easing::wanted);
       }
     }
@@ -170,7 +176,8 @@ class Settling {
   }
 
   void put_all_back() {
-    while (sheet_.any_out()) {
+    for (size_t i = 0; sheet_.any_out(); ++i) {
+      if (i % vertices_an_answer == 0) ask();
       const Halfedge h = sheet_.put_back();
       const Vertex v = sheet_.origin(h);
       easing_.slide(v, way_in(h));
@@ -215,6 +222,8 @@ class Settling {
       const std::vector<Face> low = low_faces();
       if (low.empty()) return;
       for (const auto& region : regions_around(low, rings)) {
+        if (region.size() > most_at_once) continue;
+        ask();
         if (!is_positive(region)) unbend(sheet_, region, Easing::wanted);
         spread_if_positive(region);
       }
@@ -294,6 +303,7 @@ class Settling {
   }
 
   const Points& points_;
+  const std::function<void()>& ask_;
   Sheet sheet_;
   Easing easing_;
   std::vector<char> near_ = std::vector<char>(static_cast<size_t>(sheet_.vertex_count()), 0);
@@ -327,9 +337,9 @@ void write(const Sheet& sheet, SphericalChart& chart) {
 
 }  // namespace
 
-SphericalChart settled(SphericalChart chart, int threads) {
+SphericalChart settled(SphericalChart chart, int threads, const std::function<void()>& ask) {
   if (!chart.certificate.closed || chart.north < 0 || chart.south < 0) return chart;
-  Settling settling(chart, threads);
+  Settling settling(chart, threads, ask);
   settling.run();
   SphericalChart result = chart;
   write(settling.sheet(), result);

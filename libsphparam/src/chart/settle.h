@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "sphparam/chart/spherical_chart.h"
 
 namespace sphparam {
@@ -11,10 +13,11 @@ namespace sphparam {
 /// with the chords.
 ///
 /// Ensures: the same triangles, wedges and points; `counts.nudged_vertices` says how many moved by
-/// more than rounding, in all, `certificate.max_shift` how far. Where no room is found, the chart as it was
-/// given. Same bytes for any number of threads.
+/// more than rounding, in all, `certificate.max_shift` how far. Where no room is found, or more
+/// than some thousand vertices would have to move together, the chart as it was given. Same bytes
+/// for any number of threads.
 /// Requires: a chart as `spherical_chart` makes it, but for folds. Our own. Cost: a few passes; 1
-/// ms a triangle that rounding folds.
-SphericalChart settled(SphericalChart chart, int threads);
+/// ms a triangle that rounding folds. `ask` is called on the way; what it throws ends all.
+SphericalChart settled(SphericalChart chart, int threads, const std::function<void()>& ask = {});
 
 }  // namespace sphparam

@@ -217,7 +217,11 @@ class ChartMaker {
     WedgeBuilder(*flat_).build(chart, [&](Face f) { return touches_seam_from_west(*flat_, f); });
     chart.counts = counts_;
     chart.certificate = certify_chart(chart, threads_);
-    if (!chart.certificate.one_to_one()) chart = settled(std::move(chart), threads_);
+    if (!chart.certificate.one_to_one()) {
+      chart = settled(std::move(chart), threads_, [&] {
+        if (!tell(static_cast<double>(counts_.fold_splits))) throw Cancelled();
+      });
+    }
     if (chart.certificate.one_to_one()) chart.counts.at_limit = false;
     return chart;
   }
