@@ -1,8 +1,15 @@
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <random>
+#include <string>
+#include <vector>
 
+#include "image/image_codec.h"
+#include "sphparam/io/safe_file.h"
 #include "sphparam/texture/equirectangular_image.h"
 #include "support/direction_image.h"
 #include "texture/texture_pyramid.h"
@@ -93,6 +100,34 @@ TEST_CASE("equirectangular: nothing aliases: one texel of a row at the pole weig
   CHECK(looked_up(look, there, 1e-6).x() > 0.9);
   CHECK(looked_up(look, there, pi / 256).x() < 0.02);
   CHECK(looked_up(look, {0, 0, 1}, pi / 256).x() < 0.02);
+}
+
+TEST_CASE("equirectangular: numbers that are measured are no colours, light may be bright") {
+  const std::string path = std::filesystem::temp_directory_path() /
+                           ("sphparam_heights_" + std::to_string(getpid()) + ".exr");
+  Image image(8, 4, 3);
+  const auto refused = [&](size_t bright) {
+    for (size_t i = 0; i < image.pixels.size(); ++i)
+      image.pixels[i] = i / 3 < bright ? 25.0F : 0.5F;
+    write_image(path, image, {.sample_type = SampleType::Float});
+    try {
+      read_equirectangular(path);
+      return std::string();
+    } catch (const ImageError& error) {
+      return std::string(error.what());
+    }
+  };
+  CHECK(refused(0).empty());
+  CHECK(refused(16).empty());
+  CHECK_THAT(refused(17), Catch::Contains("no colours: 53.1 % of its pixels"));
+  // Of other formats than EXR one in a hundred: TIFF has floats too.
+  const std::string tiff = path.substr(0, path.size() - 3) + "tif";
+  const std::vector<char> bytes =
+      encode_image(image, ImageFormat::Tiff, {.sample_type = SampleType::Float});
+  write_file(tiff, {bytes.begin(), bytes.end()});
+  CHECK_THROWS_AS(read_equirectangular(tiff), ImageError);
+  std::filesystem::remove(path);
+  std::filesystem::remove(tiff);
 }
 
 TEST_CASE("equirectangular: an image that is not twice as wide as high is told, but for a texel") {

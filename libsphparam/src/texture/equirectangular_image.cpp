@@ -6,6 +6,7 @@
 
 #include "elementary.h"
 #include "image/image_codec.h"
+#include "number_text.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/sphere/spherical_coordinates.h"
 #include "texture/baked_texts.h"
@@ -59,6 +60,25 @@ Colour mean_along(const Level& level, double u, double v, double turns) {
   return sum / static_cast<float>(samples);
 }
 
+/// Of the pixels, those with a value that is no colour.
+double share_beyond_colours(const Image& image) {
+  const auto beyond = [](float x) { return !(-0.01F < x && x < 1.01F); };  // filters overshoot
+  const auto channels = static_cast<size_t>(image.channels);
+  long count = 0;
+  for (size_t i = 0; i < image.pixels.size(); i += channels)
+    count += std::any_of(&image.pixels[i], &image.pixels[i] + channels, beyond);
+  return static_cast<double>(count) / (static_cast<double>(image.width) * image.height);
+}
+
+/// Heights in metres, say, would all be white or black. Light may be brighter than white.
+void require_colours(const std::string& path, const Image& image, bool linear) {
+  const double most = linear ? 0.5 : 0.01, share = share_beyond_colours(image);
+  if (share <= most) return;
+  throw ImageError(display_name(path) + ": no colours: " + percent(share) +
+                   " of its pixels have values outside of 0 to 1; numbers that are measured are "
+                   "scaled to that before they are painted");
+}
+
 }  // namespace
 
 std::array<float, 4> EquirectangularImage::look_up(const Vector3& direction, double width) const {
@@ -101,6 +121,7 @@ EquirectangularImage read_equirectangular(const std::string& path, Convention co
                                  ", and would be read in " + info_of(convention).name +
                                  ": convention " + name + " reads it as it is");
   }
+  require_colours(path, image, linear);
   return {std::make_shared<const TexturePyramid>(image, linear, threads), convention};
 }
 

@@ -5,6 +5,7 @@
 
 #include "image/image_codec.h"
 #include "io/attributes/appearance.h"
+#include "io/attributes/material_comments.h"
 #include "texture/read_textures.h"
 
 namespace sphparam {
@@ -34,15 +35,6 @@ std::string see_through(const MeshFile& file) {
   return "";
 }
 
-/// What the glTF file said of its textures; empty where they are here, or never were.
-std::string left_behind(const MeshFile& file) {
-  if (!file.base_colours.empty() || !has_texcoords(file)) return "";
-  const auto found = std::ranges::find_if(file.comments, [](std::string_view comment) {
-    return comment.starts_with("base colour of ");
-  });
-  return found == file.comments.end() ? "" : *found;
-}
-
 }  // namespace
 
 ShownTextures shown_textures(const MeshFile& file, const std::string& name,
@@ -56,7 +48,7 @@ ShownTextures shown_textures(const MeshFile& file, const std::string& name,
     }
     throw NoTexcoords(name + " has no texture coordinates, so its texture has no place");
   }
-  if (const std::string words = left_behind(file); !words.empty()) {
+  if (const std::string words = left_behind_texture(file); !words.empty()) {
     return shown_without(
         name + ": shown without its texture, which is not in this file (" + words + ")", true);
   }

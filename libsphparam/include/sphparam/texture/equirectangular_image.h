@@ -55,7 +55,9 @@ class ImageOfOtherConvention : public std::invalid_argument {
 };
 
 /// Reads an EXR, whose name says so: linear light, or one of the other formats, which hold sRGB.
-/// Throws: ImageError; ImageOfOtherConvention. Cost: 11 bytes a texel.
+/// Throws: ImageError, also where what is measured (heights in metres) stands in its pixels, not
+/// colours: outside of 0 to 1 in more than 1 % of them, of an EXR in more than half;
+/// ImageOfOtherConvention. Cost: 11 bytes a texel.
 EquirectangularImage read_equirectangular(const std::string& path,
                                           Convention convention = Convention::Sphparam,
                                           int threads = 0);
