@@ -61,15 +61,16 @@ def check_layers(obj):
     mesh = obj.data
     points = positions(mesh)
     at_loops = points[loop_vertices(mesh)]
-    assert np.abs(uv(mesh, "Own") - np.c_[linear(at_loops), at_loops[:, 0]]).max() < 0.02
+    exact = 1e-4  # quads are not plane: what is linear in space is by the triangles that they are drawn as
+    assert np.abs(uv(mesh, "Own") - np.c_[linear(at_loops), at_loops[:, 0]]).max() < exact
     colours = column(mesh.color_attributes["Paint"].data, "color", width=4)
-    assert np.abs(colours[:, 0] - linear(at_loops)).max() < 0.02
+    assert np.abs(colours[:, 0] - linear(at_loops)).max() < exact
     heat = column(mesh.attributes["heat"].data, "value")
-    assert np.abs(heat - linear(points)).max() < 0.02
+    assert np.abs(heat - linear(points)).max() < exact
     weights = np.array([sum(g.weight for g in v.groups) for v in mesh.vertices])
     assert np.abs(weights - np.clip(linear(points) + 0.4, 0, 1)).max() < 0.02
     keys = column(mesh.shape_keys.key_blocks["Moved"].data, "co", width=3)
-    assert np.abs(keys - (2 * points + [1, 0, 0])).max() < 0.02
+    assert np.abs(keys - (2 * points + [1, 0, 0])).max() < exact
     expected = (centres(mesh)[:, 0] > 0).astype(np.int32)
     wrong = column(mesh.polygons, "material_index", np.int32) != expected
     assert np.abs(centres(mesh)[wrong, 0]).max(initial=0) < 0.1

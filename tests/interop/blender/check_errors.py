@@ -207,8 +207,44 @@ def check_nowhere():
     bpy.ops.object.mode_set(mode="OBJECT")
 
 
+def check_moved():
+    """A map that is none any more is told of the object, not of a file, with what to do."""
+    start_anew()
+    obj = mapped()
+    column_of = obj.data.attributes["spherical_map"].data
+    found = column(column_of, "vector", np.float32, 3)
+    found[7] *= -1
+    column_of.foreach_set("vector", found.ravel())
+    told = expect_refusal(uses()[0], "bad", "not one-to-one", "Spherical Map › Map")
+    assert ".ply" not in told and "sphparam" not in told, told
+
+
+def check_unchanged():
+    """What cannot be finished is refused before anything is cut."""
+    start_anew()
+    obj = obj_of(ball())
+    for number in range(8):
+        obj.data.uv_layers.new(name=str(number))
+    refused(obj, "as many UV maps as Blender allows")
+    start_anew()
+    obj = obj_of(ball())
+    obj.modifiers.new("m", "MULTIRES")
+    refused(obj, "Multiresolution", "without Cut Along the Seam")
+    assert bpy.ops.object.spherical_map(cut=False) == {"FINISHED"}
+
+
+def check_other_program():
+    start_anew()
+    wanted = bpy.context.preferences.addons["spherical_map"].preferences
+    wanted.route, wanted.program = "PROGRAM", "/bin/true"
+    refused(obj_of(ball()), "/bin/true is not sphparam")
+    use("PROGRAM")
+
+
 install()
 said_by, told_by = [], []
+check_unchanged()
+check_other_program()
 check_nowhere()
 for route in routes:
     start_anew()
@@ -217,6 +253,7 @@ for route in routes:
     check_others()
     check_copies()
     check_uses()
+    check_moved()
     told_by.append([check() for check in (check_broken_later, check_broken_target, check_no_area,
                                           check_not_finite, check_too_large)])  # fmt: skip
     start_anew()

@@ -6,8 +6,8 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import bpy
 import numpy as np
-from support import (column, directions, drawn_triangles, install, load, load_pixels, loop_vertices, make_active, pixels,
-                     positions, ran, routes, said, start_anew, use, uv, work, write_mesh)  # fmt: skip
+from support import (column, directions, drawn_triangles, expect_refusal, install, load, load_pixels, loop_vertices,
+                     make_active, pixels, positions, ran, routes, said, start_anew, use, uv, work, write_mesh)  # fmt: skip
 
 width = 512
 
@@ -163,7 +163,6 @@ def check_file():
     bpy.ops.object.spherical_map_bake(field="position", size=64)
     before = pixels(bpy.data.images[f"{name} position"]).copy(), directions(obj.data), uv(obj.data)
     path = str(work / "saved.blend")
-    bpy.data.images[f"{name} position"].use_fake_user = True
     bpy.ops.wm.save_as_mainfile(filepath=path)
     bpy.ops.wm.open_mainfile(filepath=path)
     obj = make_active(bpy.data.objects[name])
@@ -186,6 +185,73 @@ def check_undo():
         make_active(bpy.data.objects[name])
 
 
+def textured_ball(change=lambda nodes, image: None):
+    """A ball that shows an image by its own UV map, with a node that is changed."""
+    start_anew()
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=32, ring_count=16)
+    obj = bpy.context.object
+    image = bpy.data.images.new("own", 8, 8)
+    material = bpy.data.materials.new("own")
+    material.use_nodes = True
+    obj.data.materials.append(material)
+    nodes = material.node_tree.nodes
+    texture = nodes.new("ShaderNodeTexImage")
+    texture.image = image
+    material.node_tree.links.new(texture.outputs[0], nodes["Principled BSDF"].inputs["Base Color"])
+    change(material.node_tree, texture)
+    bpy.ops.object.spherical_map()
+    return obj
+
+
+def inverted(tree, texture):
+    node = tree.nodes.new("ShaderNodeInvert")
+    tree.links.new(texture.outputs[0], node.inputs["Color"])
+    tree.links.new(node.outputs[0], tree.nodes["Principled BSDF"].inputs["Base Color"])
+
+
+def mapping(tree, texture):
+    tree.links.new(tree.nodes.new("ShaderNodeMapping").outputs[0], texture.inputs[0])
+
+
+def check_plain_images():
+    """Base colours that are more than an image by a UV map are refused; they were baked as if they were not."""
+    changes = {"other nodes change": inverted, "other coordinates": mapping,
+               "colour space": lambda tree, texture: setattr(texture.image.colorspace_settings, "name", "Non-Color"),
+               "CLIP": lambda tree, texture: setattr(texture, "extension", "CLIP")}  # fmt: skip
+    for words, change in changes.items():
+        textured_ball(change)
+        expect_refusal(lambda: bpy.ops.object.spherical_map_bake(field="basecolor", size=32), words, "Cycles")
+    textured_ball()
+    assert bpy.ops.object.spherical_map_bake(field="basecolor", size=32) == {"FINISHED"}
+
+
+def check_own_images():
+    """An image of the user's is none of ours, whatever its name; ours stay without users, and apart when unpacked."""
+    obj = mapped("creature.ply")
+    theirs = bpy.data.images.new(f"{obj.name} position", 8, 8)
+    bpy.ops.object.spherical_map_bake(field="position", size=32)
+    bpy.ops.object.spherical_map_bake(field="height", size=32)
+    assert tuple(theirs.size) == (8, 8)
+    made = [image for image in bpy.data.images if image.packed_file]
+    assert len(made) == 2 and all(image.use_fake_user for image in made)
+    assert len({bpy.path.basename(image.packed_files[0].filepath) for image in made}) == 2
+
+
+def check_control():
+    """A control mesh has the UV map that equirectangular images are shown by, beside that of its displacement."""
+    obj = mapped("creature.ply")
+    bpy.ops.object.spherical_map_control(edges=8, levels=2)
+    made = bpy.context.object
+    assert made.modifiers["Displacement"].uv_layer == "Spherical Grid"
+    at_loops = directions(made.data)[loop_vertices(made.data)]
+    theta = np.arctan2(at_loops[:, 1], at_loops[:, 0]) / (2 * np.pi)
+    found = uv(made.data)
+    away = np.abs(at_loops[:, 2]) < 0.9
+    apart = (found[:, 0] - theta + 0.5) % 1 - 0.5
+    assert np.abs(apart[away]).max() < 1e-5
+    assert np.abs(found[:, 1] - (1 - np.arccos(at_loops[:, 2]) / np.pi)).max() < 1e-5
+
+
 install()
 obj = load(work / "creature.ply")
 off = check_images(write_mesh(work / "own.obj", obj.data))
@@ -195,6 +261,9 @@ check_names()
 use("PROGRAM")
 check_selected_to_active()
 check_attribute()
+check_plain_images()
+check_own_images()
+check_control()
 check_undo()
 check_file()
 said(f"uses: images are the program's but for {100 * off:.2f} % of the texels at most; remesh, any names, save, undo")

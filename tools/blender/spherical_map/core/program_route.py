@@ -68,6 +68,8 @@ class ProgramRoute:
         with tempfile.TemporaryDirectory(prefix="sphparam-") as folder:
             path = os.path.join(folder, "report.json")
             self._run(*words, "--json", path)
+            if not os.path.exists(path):
+                raise Refusal(f"{self._program} is not sphparam: say in the add-on's preferences where it is")
             with open(path, encoding="utf-8") as file:
                 return json.load(file)
 

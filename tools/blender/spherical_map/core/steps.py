@@ -63,6 +63,8 @@ class Control:
     mesh: ply.Ply
     image: ImageFile
     figures: Fit
+    mapped: Mapped
+    """With the chart of a mesh that is not cut."""
 
 
 def _require_sound(surface: Surface) -> None:
@@ -89,6 +91,16 @@ def _explained(surface: Surface, refused: MeshRefused) -> Refusal:
     return Refusal("\n".join(lines), surface.name, places_of(surface, refused.defects))
 
 
+def _of_surfaces(message: str, surfaces: Dict[str, Surface]) -> str:
+    """What is said of files, said of the surfaces in them, and without what to type about files."""
+    lines = [line for line in message.splitlines() if "sphparam " not in line]
+    told = "\n".join(lines) or message
+    for path, surface in surfaces.items():
+        told = told.replace(path, surface.name).replace(os.path.basename(path), surface.name)
+    again = "not one-to-one" in told
+    return told + ("\nmap it again: Object › Spherical Map › Map" if again else "")
+
+
 @contextmanager
 def _explaining(surfaces: Dict[str, Surface]) -> Iterator[None]:
     """What a route refuses of files is told of the surfaces in them."""
@@ -96,6 +108,8 @@ def _explaining(surfaces: Dict[str, Surface]) -> Iterator[None]:
         yield
     except MeshRefused as refused:
         raise _explained(surfaces[refused.mesh], refused) from None
+    except Refusal as refusal:
+        raise Refusal(_of_surfaces(str(refusal), surfaces), refusal.surface, refusal.elements) from None
 
 
 def _require_unwelded(surface: Surface, mapped: ply.Ply) -> None:
@@ -188,10 +202,15 @@ def remesh(route, folder: str, surface: Surface, grid: str) -> Remeshed:
 def fit_control(route, folder: str, surface: Surface, edges: int, width: int) -> Control:
     """A Catmull-Clark control mesh of 6·edges² quads, and what its surface lacks."""
     out, image = os.path.join(folder, "control.ply"), os.path.join(folder, "displacement.exr")
+    again = os.path.join(folder, "again")
     mapped = write_mapped(folder, surface)
     with _explaining({mapped: surface}):
         figures = route.fit(mapped, f"cube:{edges}", out, image, (width, width // 2))
-    return Control(ply.read(out), _image_file(image), figures)
+    os.mkdir(again)
+    found = ply.read(out)
+    made = surface_of(found, f"{surface.name} control")
+    mapped = Mapped(made, _chart(route, again, write_mapped(again, made), True), None)
+    return Control(found, _image_file(image), figures, mapped)
 
 
 def colours_of(found: ply.Ply) -> Optional[np.ndarray]:

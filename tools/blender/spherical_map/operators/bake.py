@@ -65,6 +65,8 @@ class SPHERICAL_MAP_OT_bake(RunningOperator, bpy.types.Operator):
         if self.size % 2:
             raise Refusal(f"Width: an even number is needed, not {self.size}")
         target = context.object
+        if self.show:
+            materials.require_editable_material(target)
         others = [o for o in context.selected_objects if o.type == "MESH" and o.data != target.data]
         if len(others) > 1:
             raise Refusal(f"{len(others)} meshes are selected besides {target.name}: select one to bake from")
@@ -105,7 +107,7 @@ class SPHERICAL_MAP_OT_bake(RunningOperator, bpy.types.Operator):
     def _surface_of(self, obj):
         surface = mesh_reading.surface_of(obj, with_directions=True)
         surface.normals = mesh_reading.loop_normals(obj.data)
-        surface.colours = mesh_reading.colours_of(obj.data)
+        surface.colours = mesh_reading.colours_of(obj.data, images.colour_name_of(obj))
         if self.field == "scalar":
             surface.scalars = mesh_reading.scalars_of(obj.data)
             if self.attribute not in surface.scalars:

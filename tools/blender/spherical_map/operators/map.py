@@ -5,8 +5,18 @@ import os
 import bpy
 
 from ..core import steps
+from ..core.refusal import Refusal
 from ..scene import mesh_reading, mesh_writing
 from .running import RunningOperator, require_editable, selected_meshes
+
+
+def _require_no_sculpture(obj):
+    """Blender does not carry the detail of Multires to faces that are cut. Raises Refusal."""
+    if any(modifier.type == "MULTIRES" for modifier in obj.modifiers):
+        raise Refusal(
+            f"{obj.name} has a Multiresolution modifier, whose sculpted detail faces that are cut would lose: apply it, "
+            "or map without Cut Along the Seam"
+        )
 
 
 class SPHERICAL_MAP_OT_map(RunningOperator, bpy.types.Operator):
@@ -44,6 +54,9 @@ class SPHERICAL_MAP_OT_map(RunningOperator, bpy.types.Operator):
         objects = selected_meshes(context)
         for obj in objects:
             require_editable(obj)
+            mesh_writing.require_uv_room(obj.data)
+            if self.cut:
+                _require_no_sculpture(obj)
         return [mesh_reading.surface_of(obj) for obj in objects]
 
     def work(self, surfaces):

@@ -8,8 +8,8 @@ import numpy as np
 from ..core import layout
 from ..core.steps import Control
 from . import images
-from .mesh_reading import column, uv_name
-from .mesh_writing import new_object, write_uv
+from .mesh_reading import column, grid_uv_name
+from .mesh_writing import apply_chart, new_object, write_uv
 
 
 def _subdivision(obj: bpy.types.Object, levels: int) -> bpy.types.Modifier:
@@ -30,7 +30,7 @@ def _subdivided(obj: bpy.types.Object, context) -> tuple:
     mesh = evaluated.to_mesh()
     vertices = column(mesh.vertices, "co", np.float32, 3).astype(np.float64)
     loops = column(mesh.loops, "vertex_index", np.int32)
-    uv = column(mesh.uv_layers[uv_name].data, "uv", np.float32, 2).astype(np.float64)
+    uv = column(mesh.uv_layers[grid_uv_name].data, "uv", np.float32, 2).astype(np.float64)
     evaluated.to_mesh_clear()
     return vertices, loops, uv
 
@@ -45,7 +45,7 @@ def _image_of(control: Control, quads: layout.CubeLayout, levels: int, beside, c
     sphere = dict(found.vertices, **dict(zip("xyz", found.table("sx", "sy", "sz").T)))
     helper = new_object("sphparam directions", replace(found, vertices=sphere), beside, context)
     try:
-        write_uv(helper.data, quads.uv().reshape(-1, 2))
+        write_uv(helper.data, quads.uv().reshape(-1, 2), grid_uv_name)
         _subdivision(helper, levels)
         directions, loops, places = _subdivided(helper, context)
     finally:
@@ -62,7 +62,8 @@ def make(control: Control, edges: int, levels: int, beside: bpy.types.Object, co
     corners = control.mesh.corners.reshape(-1, 4)
     directions = control.mesh.table("sx", "sy", "sz")
     quads = layout.CubeLayout(corners, directions, edges, 2**levels)
-    write_uv(made.data, quads.uv().reshape(-1, 2))
+    write_uv(made.data, quads.uv().reshape(-1, 2), grid_uv_name)
+    apply_chart(made.data, control.mapped.surface, control.mapped.chart, False)
     heights = _image_of(control, quads, levels, beside, context)
     image = images.of_values(beside.name + " displacement", heights)
     _subdivision(made, levels)
@@ -71,7 +72,7 @@ def make(control: Control, edges: int, levels: int, beside: bpy.types.Object, co
 
 
 def displace(obj: bpy.types.Object, image: bpy.types.Image, scale: float = 1.0, midlevel: float = 0.0) -> None:
-    """Displace along normals by (value − midlevel) · scale, looked up by our UV map as it is: values below 0
+    """Displace along normals by (value − midlevel) · scale, looked up by the UV map of the grid as it is: values below 0
     are kept (Blender cuts them off unless told), texels are not blurred, no level of detail is chosen."""
     texture = bpy.data.textures.new(image.name, "IMAGE")
     texture.image = image
@@ -85,7 +86,7 @@ def displace(obj: bpy.types.Object, image: bpy.types.Image, scale: float = 1.0, 
     modifier = obj.modifiers.new("Displacement", "DISPLACE")
     modifier.texture = texture
     modifier.texture_coords = "UV"
-    modifier.uv_layer = uv_name
+    modifier.uv_layer = grid_uv_name
     modifier.direction = "NORMAL"
     modifier.strength = scale
     modifier.mid_level = midlevel

@@ -28,7 +28,43 @@ def _split_edges(bm, cut: Cut, verts: list, places: np.ndarray) -> None:
             tail, done = made, share
 
 
-def _add_inner(bm, cut: Cut, verts: list, places: np.ndarray, faces: list) -> None:
+class _Pieces:
+    """The triangles of polygons as faces of their own: what Blender interpolates in a larger polygon is by other
+    weights than those by which our vertices lie in its triangles."""
+
+    def __init__(self, bm, verts: list):
+        self._bm, self._verts = bm, list(verts)
+        self._made = {}
+        self._edges = set()
+
+    def face(self, polygon, corners):
+        """The triangle of a polygon, or the polygon itself where it is one."""
+        if len(polygon.verts) == 3:
+            return polygon
+        key = polygon, tuple(sorted(int(v) for v in corners))
+        if key not in self._made:
+            self._made[key] = self._make(polygon, [self._verts[v] for v in corners])
+        return self._made[key]
+
+    def _make(self, polygon, corners):
+        for a, b in zip(corners, corners[1:] + corners[:1]):
+            if self._bm.edges.get((a, b)) is None:
+                self._edges.add(self._bm.edges.new((a, b)))
+        made = self._bm.faces.new(corners, polygon)
+        loops = {loop.vert: loop for loop in polygon.loops}
+        for loop in made.loops:
+            loop.copy_from(loops[loop.vert])
+        return made
+
+    def remove(self) -> None:
+        for face in self._made.values():
+            self._bm.faces.remove(face)
+        for edge in self._edges:
+            if edge.is_valid and not edge.link_faces:
+                self._bm.edges.remove(edge)
+
+
+def _add_inner(bm, cut: Cut, verts: list, places: np.ndarray, faces: list, pieces: _Pieces) -> None:
     """New vertices within polygons."""
     first_new = len(places) - len(cut.new_corners)
     polygon_of = np.zeros(len(places), np.int64)
@@ -36,7 +72,7 @@ def _add_inner(bm, cut: Cut, verts: list, places: np.ndarray, faces: list) -> No
     for vertex in range(first_new, len(places)):
         if verts[vertex] is None:
             made = bm.verts.new(places[vertex])
-            made.copy_from_face_interp(faces[polygon_of[vertex]])
+            made.copy_from_face_interp(pieces.face(faces[polygon_of[vertex]], cut.new_corners[vertex - first_new]))
             verts[vertex] = made
 
 
@@ -57,9 +93,12 @@ def cut_mesh(mesh: bpy.types.Mesh, cut: Cut, places: np.ndarray) -> None:
         faces = list(bm.faces)
         verts = list(bm.verts) + [None] * len(cut.new_corners)
         _split_edges(bm, cut, verts, places)
-        _add_inner(bm, cut, verts, places, faces)
+        pieces = _Pieces(bm, verts)
+        _add_inner(bm, cut, verts, places, faces, pieces)
+        of_loop = np.empty(len(mesh.loops), np.int32)
+        mesh.loops.foreach_get("vertex_index", of_loop)
         loops = {}
-        for polygon, corners in zip(cut.polygons, cut.vertices):
+        for polygon, corners, around in zip(cut.polygons, cut.vertices, of_loop[cut.loops]):
             old = faces[polygon]
             if polygon not in loops:
                 loops[polygon] = {loop.vert: loop for loop in old.loops}
@@ -69,7 +108,8 @@ def cut_mesh(mesh: bpy.types.Mesh, cut: Cut, places: np.ndarray) -> None:
                 if known is not None:
                     loop.copy_from(known)
                 else:
-                    _interpolate(loop, old)
+                    _interpolate(loop, pieces.face(old, around))
+        pieces.remove()
         for polygon in loops:
             bm.faces.remove(faces[polygon])
         for number in range(len(verts) - len(cut.new_corners), len(verts)):

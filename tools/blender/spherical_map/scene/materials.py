@@ -2,6 +2,7 @@
 
 import bpy
 
+from ..core.refusal import Refusal
 from .mesh_reading import uv_name
 
 
@@ -12,6 +13,13 @@ def _node(tree, kind: str, label: str):
         found = tree.nodes.new(kind)
         found.label = label
     return found
+
+
+def require_editable_material(obj: bpy.types.Object) -> None:
+    """Raises Refusal where its material, or the mesh that would get one, belongs to another file."""
+    owner = obj.active_material or obj.data
+    if owner.library is not None or (obj.active_material is None and obj.library is not None):
+        raise Refusal(f"{owner.name} is linked from another file and can show nothing: Object › Relations › Make Local")
 
 
 def _material_of(obj: bpy.types.Object) -> bpy.types.Material:

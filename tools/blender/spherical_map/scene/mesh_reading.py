@@ -11,6 +11,8 @@ directions_name, directions_rest = "spherical_map", "spherical_map_rest"
 """Attributes of vertices: the direction in single precision, and what that leaves of it."""
 uv_name = "Spherical"
 """The UV map."""
+grid_uv_name = "Spherical Grid"
+"""That of a control mesh in the layout of its displacement."""
 
 
 def column(items, name: str, kind, width: int = 1) -> np.ndarray:
@@ -57,9 +59,9 @@ def surface_of(obj: bpy.types.Object, *, with_directions: bool = False) -> Surfa
     )
 
 
-def colours_of(mesh: bpy.types.Mesh) -> Optional[np.ndarray]:
-    """(V, 4) bytes in sRGB of the colour attribute that is rendered; of corners the mean at a vertex."""
-    index = mesh.color_attributes.render_color_index
+def colours_of(mesh: bpy.types.Mesh, name: str = "") -> Optional[np.ndarray]:
+    """(V, 4) bytes in sRGB of a colour attribute, or of the one that is rendered; of corners the mean at a vertex."""
+    index = mesh.color_attributes.find(name) if name else mesh.color_attributes.render_color_index
     if not 0 <= index < len(mesh.color_attributes):
         return None
     attribute = mesh.color_attributes[index]

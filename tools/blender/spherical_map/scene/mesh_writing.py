@@ -28,11 +28,18 @@ def write_directions(mesh: bpy.types.Mesh, directions: np.ndarray) -> None:
     write_attribute(mesh, directions_rest, "FLOAT_VECTOR", (directions - high).astype(np.float32), "vector")
 
 
-def write_uv(mesh: bpy.types.Mesh, uv: np.ndarray, name: str = uv_name) -> None:
-    """(L, 2) as the UV map of that name, which becomes the active one. Raises Refusal."""
-    layer = mesh.uv_layers.get(name) or mesh.uv_layers.new(name=name, do_init=False)
-    if layer is None:
+_most_uv_maps = 8  # of Blender
+
+
+def require_uv_room(mesh: bpy.types.Mesh) -> None:
+    """Raises Refusal where the mesh can have no UV map of ours."""
+    if uv_name not in mesh.uv_layers and len(mesh.uv_layers) >= _most_uv_maps:
         raise Refusal(f"{mesh.name} has as many UV maps as Blender allows: remove one")
+
+
+def write_uv(mesh: bpy.types.Mesh, uv: np.ndarray, name: str = uv_name) -> None:
+    """(L, 2) as the UV map of that name, which becomes the active one. Requires: there is room for it."""
+    layer = mesh.uv_layers.get(name) or mesh.uv_layers.new(name=name, do_init=False)
     layer.data.foreach_set("uv", uv.astype(np.float32).ravel())
     mesh.uv_layers.active = mesh.uv_layers[name]
 
