@@ -67,30 +67,32 @@ class IccProfile {
            });
   }
 
-  /// What a half becomes in linear light: 0.214 of sRGB's curve, 0.218 of its power of 2.2.
+  static bool is_near(double found, double meant, double rounding) {
+    return std::abs(found - meant) < rounding;
+  }
+
+  /// sRGB's curve, or its power of 2.2.
   bool has_curve(std::string_view name) const {
     const std::optional<size_t> at = tag(name);
-    return at && std::abs(of_half(*at) - 0.2152) < 0.006;
+    if (!at) return false;
+    if (bytes_.substr(std::min(*at, bytes_.size()), 4) == "para")
+      return is_srgb_curve(static_cast<int>(number(*at + 8, 2)), *at + 12);
+    const auto count = static_cast<size_t>(number(*at + 8, 4));
+    if (count < 2) return count == 1 && is_power(number(*at + 12, 2) / 256);
+    const double below = number(*at + 12 + 2 * ((count - 1) / 2), 2),
+                 above = number(*at + 12 + 2 * (count / 2), 2);
+    return is_near((below + above) / 2 / 65535, 0.2152, 0.006);  // of a half; the power has 0.2176
   }
 
-  double of_half(size_t at) const {
-    if (bytes_.substr(std::min(at, bytes_.size()), 4) == "para")
-      return of_half(static_cast<int>(number(at + 8, 2)), at + 12);
-    const auto count = static_cast<size_t>(number(at + 8, 4));
-    if (count == 0) return 0.5;
-    if (count == 1) return std::pow(0.5, number(at + 12, 2) / 256);
-    const double below = number(at + 12 + 2 * ((count - 1) / 2), 2),
-                 above = number(at + 12 + 2 * (count / 2), 2);
-    return (below + above) / 2 / 65535;
-  }
+  static bool is_power(double g) { return is_near(g, 2.2, 0.04); }
 
-  /// Y = (a X + b)^g + e above d of types 1 to 4; below it is no concern of a half.
-  double of_half(int type, size_t at) const {
-    const double g = fixed(at);
-    if (type == 0) return std::pow(0.5, g);
-    const double a = fixed(at + 4), b = fixed(at + 8);
-    const double up = type == 2 ? fixed(at + 12) : type == 4 ? fixed(at + 20) : 0;
-    return std::pow(std::max(0.0, a / 2 + b), g) + up;
+  /// Y = (a X + b)^g and more, of the types 1 to 4; X^g of type 0.
+  bool is_srgb_curve(int type, size_t at) const {
+    const double g = fixed(at), a = fixed(at + 4), b = fixed(at + 8);
+    if (type == 0) return is_power(g);
+    const bool plain = is_near(a, 1, 0.002) && is_near(b, 0, 0.002);
+    const bool scaled = is_near(a, 1 / 1.055, 0.002) && is_near(b, 0.055 / 1.055, 0.002);
+    return (plain && is_power(g)) || (scaled && is_near(g, 2.4, 0.02));
   }
 
   std::string_view bytes_;

@@ -121,14 +121,22 @@ void tell_texts(const OIIO::ImageSpec& spec, SphparamTextSink text, void* contex
   }
 }
 
-/// What libjpeg only warns of, painting grey: data that end early or are damaged. Empty: nothing,
-/// or what is wrong is in the head alone.
-std::string damage_of(OIIO::ImageInput& input, std::string_view format) {
-  if (format != "jpeg" || !input.has_error()) return "";
-  const std::string told = input.geterror();
-  for (const char* const harmless : {"JFIF revision", "Adobe color transform", "SOS parameters"})
+/// Whether no end follows the last scan of a JPEG. (In a scan, 0xff is never before 0xda or 0xd9;
+/// a thumbnail that has both lies before.)
+bool is_cut_off(std::string_view jpeg) {
+  const size_t scan = jpeg.rfind("\xff\xda"), end = jpeg.rfind("\xff\xd9");
+  return end == jpeg.npos || (scan != jpeg.npos && end < scan);
+}
+
+/// What libjpeg only warns of, painting grey: data of a JPEG that end early or are damaged. Empty:
+/// nothing. Of several warnings it tells the first.
+std::string damage_of(OIIO::ImageInput& input, std::string_view jpeg) {
+  const std::string told = input.has_error() ? input.geterror() : "";
+  if (is_cut_off(jpeg))
+    return "is cut off, the end of the JPEG is not there: copy or save it again";
+  for (const char* const harmless : {"Adobe color transform", "SOS parameters"})
     if (told.find(harmless) != std::string::npos) return "";
-  return "damaged, or ends early: " + told;
+  return told.empty() ? "" : "damaged, or ends early: " + told;
 }
 
 int decode(const char* format, const char* bytes, size_t size, int64_t max_megabytes,
@@ -153,6 +161,8 @@ int decode(const char* format, const char* bytes, size_t size, int64_t max_megab
   config.attribute("oiio:UnassociatedAlpha", 1);
   if (!input->set_ioproxy(&memory)) return fail("this decoder cannot read from memory");
   if (!input->open(std::string("memory.") + format, spec, config)) return fail(input->geterror());
+  const bool is_jpeg = std::string_view(format) == "jpeg";
+  if (is_jpeg) input->geterror();  // of the head, where stray bytes do no harm
   const std::string refused = refusal(spec, size, max_megabytes, max_channels);
   if (!refused.empty()) return fail(refused);
   const bool is_placed = has_other_window(spec, format);
@@ -171,8 +181,10 @@ int decode(const char* format, const char* bytes, size_t size, int64_t max_megab
                          is_placed ? apart.data() : pixels)) {
     return fail(input->geterror());
   }
-  const std::string damage = damage_of(*input, format);
-  if (!damage.empty()) return fail(damage);
+  if (is_jpeg) {
+    const std::string damage = damage_of(*input, {bytes, size});
+    if (!damage.empty()) return fail(damage);
+  }
   if (is_placed) place(apart, spec, pixels);
   return 0;
 } catch (const std::exception& e) {
