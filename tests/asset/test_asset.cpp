@@ -16,8 +16,10 @@
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/sphere/sphere_locator.h"
 #include "sphparam/sphere/spherical_coordinates.h"
+#include "support/glb_json.h"
 #include "support/joined.h"
 #include "support/leaks_of_others.h"
+#include "support/shaken.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -454,4 +456,47 @@ TEST_CASE("remake asset: the page has the pictures, the words and the channels")
        {"Wrapped in one closed surface", "What stood in the way", "2 separate components",
         "Before and after", "mesh_orm.png", "All figures"})
     CHECK_THAT(page, Catch::Contains(text));
+}
+
+TEST_CASE("whole surface: pieces that rounding keeps apart are welded, not wrapped") {
+  const WholeSurface welded = whole_surface(source_of(shaken_apart(icosphere(3), 1e-6)), coarse());
+  CHECK(welded.by == WholeBy::Repair);
+  CHECK(welded.area_kept == 1);
+  CHECK(welded.mapped.mesh().vertex_count() == icosphere(3).vertex_count());
+  CHECK_THAT(welded.done.front(), Catch::Contains(" welded onto others nearby"));
+}
+
+TEST_CASE("remake asset: who made it is said by the .glb, also where it is wrapped") {
+  for (const TriangleMesh& mesh : {icosphere(2), two_balls()}) {
+    const Folder folder;
+    MeshSource asset = source_of(mesh);
+    asset.file.comments = {"copyright (c) Me", R"(asset extras {"license":"CC-BY"})"};
+    RemakeOptions options{.whole = coarse(), .width = 32};
+    options.page = false;
+    PendingFiles files;
+    remake_asset(asset, folder.path.string(), options, files);
+    files.publish();
+    const auto said = json_of(bytes_of(folder.path.string() + "/shape.glb"))["asset"];
+    CHECK(said["copyright"] == "(c) Me");
+    CHECK(said["extras"]["license"] == "CC-BY");
+    CHECK(said["extras"]["sphparam"]["source"] == "shape.obj");
+  }
+}
+
+TEST_CASE("remake asset: that the occlusion of rays is shown instead of the asset's own is told") {
+  const Folder folder;
+  MeshSource asset = painted(source_of(icosphere(2), "ball.obj"));
+  asset.file.corner_texcoords = CornerTexcoords::Zero(3 * asset.file.mesh.face_count(), 2);
+  asset.file.channels[0].occlusion = {.image = "dirt.png",
+                                      .bytes = std::make_shared<const std::vector<char>>(
+                                          encode_image(Image(8, 8, 3), ImageFormat::Png))};
+  RemakeOptions options{.whole = coarse(), .width = 32};
+  options.page = false;
+  PendingFiles files, more;
+  CHECK(remake_asset(asset, folder.path.string(), options, files).warnings.empty());
+  options.occlusion = true;
+  CHECK(remake_asset(asset, folder.path.string(), options, more).warnings ==
+        std::vector<std::string>{"the occlusion of rays is shown instead of the materials' own, "
+                                 "which is in red of ball_orm.png: without --occlusion that is "
+                                 "shown"});
 }

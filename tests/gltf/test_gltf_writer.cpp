@@ -207,3 +207,17 @@ TEST_CASE("in_convention: drawn in a convention or moved into it, a test image i
     CHECK(most < 0.02);
   }
 }
+
+TEST_CASE("gltf_writer: copyright and extras of the source stand beside our own") {
+  Asset asset = long_asset(3);
+  CHECK_FALSE(json_of(glb_bytes(asset))["asset"].contains("copyright"));
+  asset.copyright = "(c) Me";
+  asset.source_extras = R"({"license":"CC-BY","sphparam":"theirs"})";
+  asset.extras = {{"source", "a.glb"}};
+  const json said = json_of(glb_bytes(asset))["asset"];
+  CHECK(said["copyright"] == "(c) Me");
+  CHECK(said["extras"] == json::parse(R"({"license":"CC-BY","sphparam":{"source":"a.glb"}})"));
+  asset.source_extras = "no JSON";
+  CHECK(json_of(glb_bytes(asset))["asset"]["extras"] ==
+        json::parse(R"({"sphparam":{"source":"a.glb"}})"));
+}

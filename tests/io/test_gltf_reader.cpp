@@ -10,6 +10,7 @@
 #include <random>
 #include <tuple>
 
+#include "io/attributes/authorship.h"
 #include "io/attributes/material_comments.h"
 #include "io/attributes/source_attributes.h"
 #include "io/formats/gltf/gltf_files.h"
@@ -716,7 +717,10 @@ TEST_CASE("gltf_reader: a material brings its base colour: factor, image, wrap m
     other.rest = replaced(other.rest, in_view, image);
     return read(other.bytes()).base_colours.at(0);
   };
-  CHECK(contains(with_image(R"("uri":"../secret.png")").problem, "'..'"));
+  CHECK(
+      with_image(R"("uri":"../secret.png")").problem ==
+      "'..': files outside of the mesh's folder are not read; copy it there, or pack all into one "
+      ".glb");
   CHECK(contains(with_image(R"("uri":"skin.png")").problem, "only a glTF read from a file"));
   CHECK(with_image(R"("uri":"skin.png")").path == "skin.png");
   gltf.rest = replaced(gltf.rest, R"("samplers":[{"wrapS":33071,"wrapT":33648}],)", "");
@@ -1333,4 +1337,53 @@ TEST_CASE("gltf_reader: the angles of _THETA_PHI are a map") {
   REQUIRE(map);
   CHECK((std::sqrt(3.0) * map->points - tetrahedron().positions).cwiseAbs().maxCoeff() < 1e-6);
   CHECK_FALSE(sphparam::read_angles(read(tetrahedron_gltf().bytes())));
+}
+
+TEST_CASE("gltf_reader: who made an asset stays with it, other metadata is told in one line") {
+  Gltf gltf = tetrahedron_gltf();
+  gltf.asset =
+      R"({"version":"2.0","copyright":"(c) Me\nCC-BY","extras":{"license":"CC-BY-4.0","n":[1,2.5,)"
+      R"(true],"sphparam":{"up":"x"},"author":"M\u00e9"}})";
+  gltf.rest = R"("nodes":[{"mesh":0,"extras":{"sku":"A-17"}},{"extras":{}}],)"
+              R"("scenes":[{"nodes":[0,1],"extras":3}],"scene":0,"extras":{"rootKey":[1]},)"
+              R"("extensions":{"KHR_xmp_json_ld":{"packets":[{}]}})";
+  gltf.meshes =
+      R"([{"primitives":[{"attributes":{"POSITION":0},"indices":1}],"extras":{"targetNames":[]}}])";
+  const sphparam::MeshFile file = read(gltf.bytes());
+  CHECK(file.comments ==
+        std::vector<std::string>{
+            "copyright (c) Me CC-BY",
+            R"(asset extras {"author":"Mé","license":"CC-BY-4.0","n":[1,2.5,true]})",
+            "up axis y"});
+  CHECK(sphparam::noted_authorship(file).copyright == "(c) Me CC-BY");
+  CHECK(sphparam::losses_among(file.notes) ==
+        std::vector<std::string>{
+            "not carried: XMP metadata; extras of the file, 1 scene and 1 node"});
+  sphparam::MeshFile other;
+  other.comments = {"copyright of nobody", "scanned"};
+  sphparam::take_authorship(other, file);
+  CHECK(other.comments == std::vector<std::string>{"scanned", file.comments[0], file.comments[1]});
+}
+
+TEST_CASE("authorship: extras are an object that is neither long nor deep, else none") {
+  using sphparam::plain_extras;
+  CHECK(plain_extras(R"({"b": 1, "a": "x"})") == R"({"b":1,"a":"x"})");
+  for (const char* none : {"", "{}", "[1]", "3", "{", R"({"sphparam":{}})"})
+    CHECK(plain_extras(none).empty());
+  CHECK(plain_extras(R"({"a":)" + std::string(5000, '[') + std::string(5000, ']') + "}").empty());
+  CHECK(plain_extras(R"({"a":")" + std::string(1 << 16, 'x') + "\"}").empty());
+}
+
+TEST_CASE("gltf_reader: meshes that nodes scale to nothing are left out and told, unless all are") {
+  Gltf gltf = tetrahedron_gltf();
+  gltf.rest = R"("nodes":[{"mesh":0},{"mesh":0,"scale":[0,0,0],"children":[2]},{"mesh":0}],)"
+              R"("scenes":[{"nodes":[0,1]}],"scene":0)";
+  const sphparam::MeshFile file = read(gltf.bytes());
+  CHECK(file.mesh.triangles == tetrahedron().triangles);
+  CHECK(file.notes ==
+        std::vector<std::string>{"not carried: 2 meshes that nodes scale to nothing, as node 1"});
+  CHECK(contains(complaint(with(R"("mesh":0)", R"("mesh":0,"scale":[0,0,0])")),
+                 "node 0: its transform is singular"));
+  CHECK(contains(complaint(with(R"("mesh":0)", R"("mesh":0,"scale":[1e200,1e200,1e200])")),
+                 "node 0: its transform is not finite"));
 }

@@ -60,7 +60,8 @@ class Folder {
       throw WriteError(path_, "is a file, and a folder is needed: -o names one");
     is_made_ = fs::create_directory(path_, error);
     if (error == std::errc::no_such_file_or_directory)
-      throw WriteError(path_, "the folder that it is to be made in is not there");
+      throw WriteError(path_, "the folder that it is to be made in is not there: mkdir -p " +
+                                  shell_word(fs::path(path_).parent_path().string()) + " makes it");
     if (error) throw WriteError(path_, error.message());
   }
   ~Folder() {
@@ -122,8 +123,10 @@ void tell(const RemadeAsset& made, const std::string& folder, TextureFormat text
       counted(static_cast<long>(made.baked.images.size()), "image") + " baked, " +
       short_number(session.stopwatch.seconds()) + " s → " + fs::path(folder).append("").string());
   session.console.say("  " + made.sizes);
+  session.console.say("  in the .glb: " + counted(made.chart.triangles, "triangle") + ", " +
+                      counted(made.chart.vertices, "vertex", "vertices"));
   if (textures != TextureFormat::Given)
-    session.console.say("  in the .glb: " + words_of(made.textures));
+    session.console.say("  its images: " + words_of(made.textures));
 }
 
 /// Before any work. A folder is no file that could be replaced.

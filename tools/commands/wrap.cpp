@@ -1,5 +1,7 @@
 // `sphparam wrap`: one closed surface of genus 0 about any triangles.
 
+#include <algorithm>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -9,6 +11,8 @@
 #include "commands/command.h"
 #include "commands/surfaces.h"
 #include "console/places.h"
+#include "io/attributes/authorship.h"
+#include "io/attributes/remarks.h"
 #include "number_text.h"
 #include "reports/told_losses.h"
 #include "sphparam/io/certified_files.h"
@@ -89,7 +93,9 @@ int run_wrap(WrapArguments& arguments) {
   file.mesh = wrap.mesh;
   file.comments = {"wrapped about " + display_name(arguments.input) + " at distance " +
                    shortest(wrap.distance) + ", voxel " + shortest(wrap.voxel)};
+  std::ranges::copy(remarks_of(soup), std::back_inserter(file.comments));
   take_up(file, soup);
+  take_authorship(file, soup);
   tell_losses(arguments.output,
               add_mesh(session.files, arguments.output, file, {.origin = arguments.input}),
               session.console);

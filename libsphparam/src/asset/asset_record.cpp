@@ -47,24 +47,26 @@ std::string verdict_of(const RemadeAsset& remade) {
 std::string to_json(const MeshSource& asset, const RemadeAsset& remade) {
   Json files = Json::array();
   for (const auto& [name, size] : remade.files) files.push_back(name);
-  return text_of({{"sphparam", version},
-                  {"command", "asset"},
-                  {"input", input_json(asset)},
-                  {"surface", word_of(remade.whole.by)},
-                  {"area_kept", remade.whole.area_kept},
-                  {"found", remade.whole.found},
-                  {"done", remade.whole.done},
-                  {"details", remade.whole.details},
-                  {"certificate", certificate_json(remade.whole.mapped.certificate())},
-                  {"triangles", remade.whole.mapped.mesh().face_count()},
-                  {"images", images_json(remade.baked.images)},
-                  {"textures", textures_json(remade.textures)},
-                  {"from", projection_json(remade.baked.projection)},
-                  {"folds_as_stored", remade.chart.stored.inverted.size()},
-                  {"warnings", remade.warnings},
-                  {"losses", losses_among(asset.file.notes)},
-                  {"files", files},
-                  {"seconds", stages(remade.seconds)}});
+  return text_of(
+      {{"sphparam", version},
+       {"command", "asset"},
+       {"input", input_json(asset)},
+       {"surface", word_of(remade.whole.by)},
+       {"area_kept", remade.whole.area_kept},
+       {"found", remade.whole.found},
+       {"done", remade.whole.done},
+       {"details", remade.whole.details},
+       {"certificate", certificate_json(remade.whole.mapped.certificate())},
+       {"triangles", remade.whole.mapped.mesh().face_count()},
+       {"chart", {{"triangles", remade.chart.triangles}, {"vertices", remade.chart.vertices}}},
+       {"images", images_json(remade.baked.images)},
+       {"textures", textures_json(remade.textures)},
+       {"from", projection_json(remade.baked.projection)},
+       {"folds_as_stored", remade.chart.stored.inverted.size()},
+       {"warnings", remade.warnings},
+       {"losses", losses_among(asset.file.notes)},
+       {"files", files},
+       {"seconds", stages(remade.seconds)}});
 }
 
 }  // namespace sphparam

@@ -111,7 +111,18 @@ class Remaker {
       requests.push_back({field, stem_ + "_" + field + ".png"});
     remade_.baked = bake(remade_.whole.mapped, requests, bake_settings(), files_);
     append(remade_.baked.warnings);
+    tell_other_occlusion();
     for (const BakeRequest& request : requests) remade_.files.emplace_back(request.path, 0);
+  }
+
+  /// The .glb shows one occlusion.
+  void tell_other_occlusion() {
+    const bool has_own = std::ranges::any_of(
+        asset_.file.channels,
+        [](const MaterialChannels& material) { return !material.occlusion.image.empty(); });
+    if (options_.occlusion && has_own && !image_of("orm").empty())
+      append({"the occlusion of rays is shown instead of the materials' own, which is in red of " +
+              name() + "_orm.png: without --occlusion that is shown"});
   }
 
   /// Where the image of a field lies now; empty: it was not baked.

@@ -7,6 +7,8 @@
 
 #include "asset/asset_words.h"
 #include "asset/soup.h"
+#include "io/attributes/authorship.h"
+#include "io/attributes/remarks.h"
 #include "io/inspected_source.h"
 #include "mesh/box.h"
 #include "number_text.h"
@@ -109,10 +111,23 @@ class Chooser {
     return mapped.with_map(mapped.map(), std::move(lines));
   }
 
+  bool keeps_enough(const RepairTrial& trial) const {
+    return trial.parts.area_share >= options_.least_kept;
+  }
+
+  /// A weld is tried where pieces would be lost, as programs that round each material's vertices
+  /// apart from the others' leave them.
+  UnaskedRepair unasked_or_welded() const {
+    UnaskedRepair unasked = try_repair_unasked(asset_);
+    if (unasked.mended && keeps_enough(unasked.trial)) return unasked;
+    UnaskedRepair welded = try_weld(asset_);
+    return welded.mended && keeps_enough(welded.trial) ? welded : unasked;
+  }
+
   std::optional<WholeSurface> mended_whole() {
-    auto [trial, repaired] = try_repair_unasked(asset_);
+    auto [trial, repaired] = unasked_or_welded();
     if (!repaired) return std::nullopt;
-    if (trial.parts.area_share < options_.least_kept) {
+    if (!keeps_enough(trial)) {
       found_.push_back("repair would keep " + percent(trial.parts.area_share, 5) +
                        " of the area and " + percent(trial.parts.face_share, 5) + " of the faces");
       return std::nullopt;
@@ -145,7 +160,9 @@ class Chooser {
     source.path = asset_.path;
     source.file.mesh = wrap.mesh;
     source.file.comments = {wrap_comment + display_name(asset_.path)};
+    std::ranges::copy(remarks_of(file), std::back_inserter(source.file.comments));
     take_up(source.file, file);
+    take_authorship(source.file, file);
     source.inspection = inspect_mesh(wrap.mesh);
     source.topology.emplace(wrap.mesh);
     std::optional<MappedMesh> mapped = mapped_with_chart(std::move(source));

@@ -10,6 +10,7 @@
 
 #include "gltf/images/image_kind.h"
 #include "gltf/packing.h"
+#include "io/attributes/authorship.h"
 #include "io/attributes/finish_terms.h"
 #include "io/uri.h"
 #include "option_domain.h"
@@ -57,7 +58,11 @@ class Builder {
     Json extras = Json::object();
     for (const auto& [key, value] : asset_.extras) extras[key] = value;
     root_["asset"] = {{"version", "2.0"}, {"generator", std::string("sphparam ") + version}};
-    if (!extras.empty()) root_["asset"]["extras"]["sphparam"] = std::move(extras);
+    if (!asset_.copyright.empty()) root_["asset"]["copyright"] = asset_.copyright;
+    Json all = Json::parse(plain_extras(asset_.source_extras), nullptr, false);
+    if (!all.is_object()) all = Json::object();
+    if (!extras.empty()) all["sphparam"] = std::move(extras);
+    if (!all.empty()) root_["asset"]["extras"] = std::move(all);
     root_["scene"] = 0;
   }
 

@@ -7,6 +7,7 @@
 #include "gltf/fillers_left_out.h"
 #include "gltf/level.h"
 #include "io/attributes/appearance.h"
+#include "io/attributes/authorship.h"
 #include "number_text.h"
 #include "sphparam/gltf/export.h"
 #include "sphparam/io/paths.h"
@@ -87,12 +88,15 @@ void add_axes(Asset& asset, const UprightAxes& axes) {
 }
 
 Asset without_levels(const MappedMesh& mapped, const Look& look, const ExportOptions& options) {
+  Authorship author = noted_authorship(mapped.file());
   Asset asset{.name = name_of_asset(mapped, options),
               .levels = {},
               .images = look.images,
               .coarse_levels_have_normal_maps = !look.normals_given,
               .materials = look.materials,
               .extras = {{"source", source_name(mapped, options)}},
+              .copyright = std::move(author.copyright),
+              .source_extras = std::move(author.extras),
               .quantised = options.quantise,
               .warnings = look.warnings};
   for (const auto& [key, value] : mapped.provenance())

@@ -277,6 +277,13 @@ std::optional<Tried> tried_welding(const MeshSource& source, const RepairOptions
   return best;
 }
 
+/// But for a weld.
+bool asks_no_more(const RepairTrial& trial) {
+  return trial.can_mend() && trial.options.component == 0 &&
+         trial.options.largest_hole == RepairOptions{}.largest_hole &&
+         trial.options.longest_handle == RepairOptions{}.longest_handle;
+}
+
 [[noreturn]] void refuse_as(const MeshSource& left, std::optional<RepairTrial> trial,
                             std::optional<PartsTrial> parts) {
   if (trial && parts) throw PartsRefusal(left, std::move(*trial), std::move(*parts));
@@ -285,11 +292,7 @@ std::optional<Tried> tried_welding(const MeshSource& source, const RepairOptions
 
 }  // namespace
 
-bool RepairTrial::mends_unasked() const {
-  return can_mend() && options.component == 0 && options.weld_share < 0 &&
-         options.largest_hole == RepairOptions{}.largest_hole &&
-         options.longest_handle == RepairOptions{}.longest_handle;
-}
+bool RepairTrial::mends_unasked() const { return options.weld_share < 0 && asks_no_more(*this); }
 
 MeshRefusal::MeshRefusal(const MeshSource& source, std::optional<RepairTrial> trial)
     : MeshError(source.inspection.defects),
@@ -351,6 +354,15 @@ UnaskedRepair try_repair_unasked(const MeshSource& source) {
   UnaskedRepair result{trial_of(source, unasked, mended, mended.parts), std::nullopt};
   if (result.trial.mends_unasked()) result.mended = with_repairs(source, std::move(mended));
   return result;
+}
+
+UnaskedRepair try_weld(const MeshSource& source) {
+  std::optional<Tried> welded = tried_welding(source, {}, false);
+  if (!welded || !asks_no_more(welded->trial)) return {};
+  RepairOptions options = welded->trial.options;
+  options.only_whole = true;
+  MeshSource whole = with_repairs(source, repair_mesh(source.file.mesh, options));
+  return {std::move(welded->trial), std::move(whole)};
 }
 
 bool mends_unasked(const MeshSource& source, const RepairTrial& trial) {

@@ -88,6 +88,8 @@ struct Asset {
   bool coarse_levels_have_normal_maps = true;  // false where one was baked for the finest alone
   std::vector<Material> materials;  // the first is the one that is seen; the others are variants
   std::vector<std::pair<std::string, std::string>> extras;  // of the asset, below "sphparam"
+  std::string copyright = {};                               // of the asset
+  std::string source_extras = {};  // of the asset, beside "sphparam": a JSON object, else none
 
   // What `make_asset` says besides, which no file holds.
   bool quantised = false;                  // its (u, v) are certified as 16-bit numbers

@@ -24,6 +24,10 @@ struct UnaskedRepair {
 /// No more than what repair does unasked, once: whether that is enough.
 UnaskedRepair try_repair_unasked(const MeshSource& source);
 
+/// A weld that `try_repair_beyond` may choose, of a mesh that rounding keeps in pieces, and what it
+/// makes: none where no weld makes it whole with no more besides than repair does unasked.
+UnaskedRepair try_weld(const MeshSource& source);
+
 /// Whether repair mends the mesh unasked, as its trial may not tell: one that welds may only spare
 /// what is put in and dropped otherwise. Cost: then one more repair.
 bool mends_unasked(const MeshSource& source, const RepairTrial& trial);

@@ -73,7 +73,8 @@ MeshFile read_scene(const char* kind, const char* format, std::string_view bytes
   MeshFile file = read_gltf(scene.glb, name, folder, options,
                             {.posed_skins = scene.counts.skins,
                              .animations = scene.counts.animations,
-                             .specular_glossiness = "specular colour and shininess"});
+                             .specular_glossiness = "specular colour and shininess",
+                             .has_own_extras = false});
   file.format = format;
   return file;
 } catch (const ModuleError& error) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "io/formats/gltf/gltf_authorship.h"
 #include "io/formats/gltf/gltf_compression.h"
 #include "io/formats/gltf/gltf_container.h"
 #include "io/formats/gltf/gltf_document_materials.h"
@@ -148,6 +149,9 @@ void note_losses(const tinygltf::Model& model, const SceneOrigin& origin, GltfDo
   add(model.lights.size(), "light");
   add(variants_of(model), "variant");
   if (!words.empty()) add_loss(document.notes, enumerated(words));
+  if (!origin.has_own_extras) return;
+  const std::string metadata = other_metadata(model);
+  if (!metadata.empty()) add_loss(document.notes, metadata);
 }
 
 /// By EXT_mesh_gpu_instancing.
@@ -194,6 +198,8 @@ void copy_model(tinygltf::Model& model, const std::string& name, const SceneOrig
   for (const tinygltf::Scene& scene : model.scenes) document.scenes.push_back(scene.nodes);
   document.default_scene = model.defaultScene;
   document.materials = materials_of(model, document, name, origin);
+  document.author = authorship_of(model);
+  if (!origin.has_own_extras) document.author.extras.clear();
   note_losses(model, origin, document);
 }
 

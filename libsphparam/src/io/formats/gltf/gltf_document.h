@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/attributes/authorship.h"
 #include "io/formats/gltf/scene_origin.h"
 #include "sphparam/io/mesh_file.h"
 #include "sphparam/io/read_options.h"
@@ -84,6 +85,7 @@ struct GltfDocument {
   std::vector<std::vector<int>> scenes;  // root nodes
   int default_scene = -1;
   std::vector<Material> materials;
+  Authorship author;
   std::vector<std::string> files;  // that buffers were read from
   std::vector<std::string> notes;
 };

@@ -121,6 +121,17 @@ bool is_nearest(const tinygltf::Model& model, int id) {
          model.samplers[sampler].magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
 }
 
+/// Of a texture without an image that is read.
+std::string problem_of_kind(const tinygltf::Texture& texture) {
+  for (const auto& [extension, kind] : {std::pair("KHR_texture_basisu", "KTX2"),
+                                        {"EXT_texture_avif", "AVIF"},
+                                        {"MSFT_texture_dds", "DDS"}})
+    if (texture.extensions.contains(extension))
+      return std::string("its image is ") + kind +
+             ", which is not read: PNG, JPEG and WebP are, as which it can be written anew";
+  return "the texture has no image of a kind that is supported";
+}
+
 /// Where the image of a texture is. Nothing in the model is promised to be there.
 void find_image(const tinygltf::Model& model, int id, Images& images, MaterialTexture& colour) {
   if (id < 0) return;
@@ -138,7 +149,7 @@ void find_image(const tinygltf::Model& model, int id, Images& images, MaterialTe
   }
   const std::size_t source = image_of(texture);
   if (source >= model.images.size()) {
-    colour.problem = "the texture has no image of a kind that is supported";
+    colour.problem = problem_of_kind(texture);
     return;
   }
   const std::string& uri = model.images[source].uri;

@@ -23,6 +23,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// What may be done, as programs that look at what strangers send read nothing else.
+constexpr char outside[] =
+    "files outside of the mesh's folder are not read; copy it there, or pack all into one .glb";
+
 [[noreturn]] void refuse(const std::string& why) { throw std::runtime_error(why); }
 
 std::string percent_decoded(std::string_view uri) {
@@ -89,8 +93,9 @@ fs::path path_of_uri(std::string_view uri) {
       std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; });
   if (control) refuse("a control character");
   const fs::path path(text);
-  if (path.is_absolute()) refuse("an absolute path");
-  if (std::find(path.begin(), path.end(), "..") != path.end()) refuse("'..'");
+  if (path.is_absolute()) refuse(std::string("an absolute path: ") + outside);
+  if (std::find(path.begin(), path.end(), "..") != path.end())
+    refuse(std::string("'..': ") + outside);
   return path;
 }
 
@@ -98,7 +103,8 @@ std::vector<unsigned char> read_below(const fs::path& folder, const fs::path& pa
                                       std::uint64_t max_bytes) {
   const Descriptor file{open_below(folder.empty() ? fs::path(".") : folder, path)};
   if (file.number < 0)
-    refuse(errno == EXDEV ? std::string("it leads out of the folder") : std::strerror(errno));
+    refuse(errno == EXDEV ? std::string("it leads out of the folder: ") + outside
+                          : std::strerror(errno));
   struct stat status {};
   if (::fstat(file.number, &status) != 0) refuse(std::strerror(errno));
   if (!S_ISREG(status.st_mode)) refuse("it is no regular file");

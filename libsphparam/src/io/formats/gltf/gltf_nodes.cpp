@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "number_text.h"
 #include "sphparam/io/losses.h"
 
 // The nodes of a scene form trees; each is visited once, with the product of the transforms above
@@ -41,6 +42,7 @@ class NodeWalk {
 
   PlacedScene visit(const std::vector<int>& roots) const {
     PlacedScene placed;
+    std::vector<int> hidden;
     placed.nodes.resize(document_.nodes.size());
     std::vector<char> seen(document_.nodes.size());
     std::vector<Visit> waiting;
@@ -62,10 +64,14 @@ class NodeWalk {
       placed.nodes[static_cast<std::size_t>(here.node)] = transform;
       if (node.mesh >= 0) {
         check_placement(here.node, transform);
-        placed.meshes.push_back({node.mesh, here.node, transform});
+        if (transform.linear.determinant() == 0)
+          hidden.push_back(here.node);
+        else
+          placed.meshes.push_back({node.mesh, here.node, transform});
       }
       wait_for(node.children, transform);
     }
+    leave_out(hidden, placed);
     return placed;
   }
 
@@ -81,9 +87,18 @@ class NodeWalk {
     const int mesh = document_.nodes[static_cast<std::size_t>(id)].mesh;
     if (mesh >= static_cast<int>(document_.meshes.size()))
       fail("mesh " + std::to_string(mesh) + " is not there");
-    const double determinant = transform.linear.determinant();
-    if (!(std::abs(determinant) > 0) || !std::isfinite(determinant))
-      fail("node " + std::to_string(id) + ": its transform is singular");
+    if (!std::isfinite(transform.linear.determinant()))
+      fail("node " + std::to_string(id) + ": its transform is not finite");
+  }
+
+  /// A scale of 0 is how exporters hide things: of the mesh there is no volume, if anything.
+  void leave_out(const std::vector<int>& hidden, const PlacedScene& placed) const {
+    if (hidden.empty()) return;
+    const std::string first = "node " + std::to_string(hidden.front());
+    if (placed.meshes.empty()) fail(first + ": its transform is singular");
+    const auto count = static_cast<long>(hidden.size());
+    add_loss(notes_,
+             counted(count, "mesh", "meshes") + " that nodes scale to nothing, as " + first);
   }
 
   Transform local_transform(int id) const {

@@ -38,8 +38,9 @@ struct PlacedScene {
 /// The default scene (the first one, where none is named; without scenes, every node that is no
 /// child).
 ///
-/// `notes` gets a line where there are several scenes. Throws: ReadError when a node or mesh is not
-/// there, a node has two parents, or a transform is malformed or singular.
+/// `notes` gets a line where there are several scenes, and one where meshes are left out because
+/// their nodes scale them to nothing. Throws: ReadError when a node or mesh is not there, a node
+/// has two parents, a transform is malformed or not finite, or all meshes are scaled to nothing.
 PlacedScene place_scene(const GltfDocument& document, const std::string& name,
                         std::vector<std::string>& notes);
 

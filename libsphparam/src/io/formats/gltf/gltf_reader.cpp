@@ -12,6 +12,7 @@
 
 #include "elementary.h"
 #include "io/attributes/appearance.h"
+#include "io/attributes/authorship.h"
 #include "io/attributes/left_out_image.h"
 #include "io/attributes/material_comments.h"
 #include "io/files/non_finite_advice.h"
@@ -106,6 +107,7 @@ class SceneReader {
     finish_corner_tables();
     finish_materials();
     add_notes();
+    note_authorship(file_, document_.author);
     return std::move(file_);
   }
 

@@ -9,6 +9,7 @@ struct SceneOrigin {
   /// Its words for what came to be KHR_materials_pbrSpecularGlossiness and is no more than a hint
   /// of that, so that it is not carried; null: it is glTF's own.
   const char* specular_glossiness = nullptr;
+  bool has_own_extras = true;  // else extras are what the way there left in them
 };
 
 }  // namespace sphparam
