@@ -12,6 +12,7 @@
 #include "sphparam/errors.h"
 #include "sphparam/gltf/export.h"
 #include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/safe_file.h"
 #include "support/glb_json.h"
 #include "support/place.h"
 #include "support/test_meshes.h"
@@ -443,6 +444,79 @@ TEST_CASE("export: a look that cannot be is an error that says why") {
   for (const char* name : {"a_ao.png", "b_ao.png"}) write_image(place / name, Image(4, 2, 1));
   CHECK_THROWS_WITH(make_look(mapped_egg(1), options),
                     Catch::EndsWith("a_ao.png, b_ao.png: leave one of them there"));
+}
+
+namespace {
+
+/// With what people said of it, what we say of files, a number a vertex and a label a face.
+MappedMesh scanned_egg() {
+  MeshFile file = mapped_egg(2).file();
+  file.comments = {"Inv. 12", "sphparam verdict certified", "TextureFile old.png",
+                   "unit: m", "source_vertices 9",          "copyright The Museum"};
+  const auto count = static_cast<std::size_t>(file.mesh.vertex_count());
+  file.set_vertex_property({"confidence", ScalarType::Float32, std::vector<double>(count, 0.5)});
+  file.set_vertex_property({"red", ScalarType::Uint8, std::vector<double>(count, 7)});
+  file.set_face_property(
+      {"patch", ScalarType::Int32,
+       std::vector<double>(static_cast<std::size_t>(file.mesh.face_count()), 3)});
+  return MappedMesh({.file = std::move(file), .map = mapped_egg(2).map(), .name = "egg.ply"});
+}
+
+const std::string scalars_left_out =
+    "not carried: confidence of vertices and patch of faces: .ply has room for that";
+
+}  // namespace
+
+TEST_CASE("export: what comments say of the object goes into the extras, numbers are told") {
+  const Asset asset = make_asset(scanned_egg(), small);
+  using Extra = std::pair<std::string, std::string>;
+  CHECK(std::ranges::count(asset.extras, Extra("comments", "Inv. 12\nunit: m")) == 1);
+  CHECK(asset.copyright == "The Museum");
+  CHECK(asset.warnings == Names{scalars_left_out});
+}
+
+TEST_CASE("export: .obj and .ply have the object's comments, and .ply its numbers") {
+  const Place place;
+  CHECK(write_textured_mesh(place / "a.ply", scanned_egg(), small).warnings.empty());
+  const MeshFile ply = read_mesh(place / "a.ply");
+  CHECK(ply.comments ==
+        Names{"Inv. 12", "unit: m", "copyright The Museum", "TextureFile a_checker.png"});
+  CHECK(ply.find_vertex_property("confidence"));
+  CHECK(ply.base_colours.at(0).image == "a_checker.png");
+  CHECK(write_textured_mesh(place / "a.obj", scanned_egg(), small).warnings ==
+        Names{scalars_left_out});
+  const MeshFile obj = read_mesh(place / "a.obj");
+  CHECK(obj.comments == Names{"Inv. 12", "unit: m", "copyright The Museum",
+                              "base colour of sphparam: texture a_checker.png"});
+}
+
+TEST_CASE("export: a texture that is not with its mesh is told where something else is shown") {
+  MeshFile file = mapped_egg(2).file();
+  file.corner_texcoords.emplace(CornerTexcoords::Zero(file.mesh.triangles.size(), 2));
+  file.comments = {"base colour of wood: texture w.png"};
+  const MappedMesh egg({.file = std::move(file), .map = mapped_egg(2).map(), .name = "egg.ply"});
+  CHECK(make_look(egg, small).warnings ==
+        Names{"egg.ply: shown without its texture, which is not in this file (base colour of wood: "
+              "texture w.png)"});
+}
+
+TEST_CASE("export: the library of another mesh stays, one of an export is replaced") {
+  const Place place;
+  std::ofstream(place / "a.mtl") << "newmtl wood\n";
+  try {
+    write_textured_mesh(place / "a.obj", mapped_egg(2), small);
+    FAIL("replaced");
+  } catch (const WriteError& error) {
+    CHECK(std::string(error.what()) == (place / "a.mtl") +
+                                           ": is there, and is no library of an export: -o " +
+                                           (place / "a_sphparam.obj") + " leaves it as it is");
+  }
+  CHECK(bytes_of(place / "a.mtl") == "newmtl wood\n");
+  CHECK_THROWS_AS(require_own_library(place / "a.obj"), WriteError);
+  CHECK_NOTHROW(require_own_library(place / "a.ply"));
+  std::filesystem::remove(place / "a.mtl");
+  for (int i = 0; i < 2; ++i)
+    CHECK(write_textured_mesh(place / "a.obj", mapped_egg(2), small).files.size() == 3);
 }
 
 }  // namespace sphparam::tests

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "io/attributes/remarks.h"
 #include "reading.h"
 
 using namespace sphparam;
@@ -293,4 +294,26 @@ TEST_CASE("obj_reader: third texture coordinates are told where they say somethi
   CHECK(read(three_vertices + faces, "a.obj").notes ==
         std::vector<std::string>{"not carried: third texture coordinates"});
   CHECK(read(three_vertices + replaced(faces, "0.5", "0"), "a.obj").notes.empty());
+}
+
+TEST_CASE("remarks: of comments those that say something of the object, of numbers the others") {
+  MeshFile file = read(three_vertices + "f 1 2 3\n", "a.obj");
+  file.comments = {"Inv. 12",
+                   "sphparam verdict x",
+                   "up axis y",
+                   "front axis z",
+                   "source_vertices 9",
+                   "data 1 a",
+                   "base colour of b: texture c",
+                   "TextureFile d",
+                   "material 0: unfiltered texels of e",
+                   "material wood"};
+  CHECK(remarks_of(file) == std::vector<std::string>{"Inv. 12", "material wood"});
+  CHECK(numbers_not_shown(file).empty());
+  for (const char* name : {"sx", "nx", "red", "filler", "quality", "label"})
+    file.set_vertex_property({name, ScalarType::Float32, {0, 0, 0}});
+  for (const char* name : {"texnumber", "patch", "corner_red_0"})
+    file.set_face_property({name, ScalarType::Int32, {0}});
+  CHECK(numbers_not_shown(file) ==
+        std::vector<std::string>{"quality and label of vertices", "patch of faces"});
 }

@@ -310,4 +310,7 @@ TEST_CASE("shown textures: what stands against those of a file is told, the mesh
   const ShownTextures left = shown_textures(copied, "ball.sph.ply");
   CHECK(left.left_behind);
   CHECK_THAT(left.warning, Contains("not in this file (base colour of skin: skin.png)"));
+  copied.comments = {"TextureFile skin.png"};
+  CHECK_THAT(shown_textures(copied, "ball.sph.ply").warning,
+             Contains("not in this file (TextureFile skin.png)"));
 }

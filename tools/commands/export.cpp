@@ -73,6 +73,7 @@ void check_first_places(const ExportArguments& arguments) {
     outputs.emplace_back("-o", (path.parent_path() / (path.stem().string() + more)).string());
   }
   check_places(outputs);
+  if (extension_of(arguments.output) == ".obj") require_own_library(arguments.output);
 }
 
 Look look_of(const MappedMesh& mapped, const ExportOptions& options) try {

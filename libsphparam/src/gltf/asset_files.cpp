@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <iterator>
 #include <optional>
 #include <stdexcept>
@@ -17,6 +18,8 @@
 #include "gltf/textured_mesh.h"
 #include "gltf/written_check.h"
 #include "io/attributes/finish_terms.h"
+#include "io/attributes/remarks.h"
+#include "io/shell_word.h"
 #include "number_text.h"
 #include "sphparam/errors.h"
 #include "sphparam/gltf/export.h"
@@ -56,6 +59,8 @@ GltfOptions resolved(GltfOptions options, const std::string& path, const Asset& 
 std::string image_file(const std::string& path, const AssetImage& image) {
   return beside(path, stem_of_path(path) + "_" + image.name + image_kind(image.bytes).extension);
 }
+
+std::string library_of(const std::string& obj) { return beside(obj, stem_of_path(obj) + ".mtl"); }
 
 bool is_obj(const std::string& path) {
   const std::string extension = extension_of(path);
@@ -182,9 +187,22 @@ void write_asset(const std::string& path, const Asset& asset, const GltfOptions&
 
 std::vector<std::string> textured_files(const std::string& path, const Look& look) {
   std::vector<std::string> names = {path};
-  if (is_obj(path)) names.push_back(beside(path, stem_of_path(path) + ".mtl"));
+  if (is_obj(path)) names.push_back(library_of(path));
   names.push_back(image_file(path, shown_image(look)));
   return names;
+}
+
+void require_own_library(const std::string& path) {
+  if (!is_obj(path)) return;
+  const std::string library = library_of(path);
+  std::error_code error;
+  if (!fs::exists(library, error)) return;
+  std::string head(own_library_head().size(), '\0');
+  std::ifstream(library, std::ios::binary).read(head.data(), std::ssize(head));
+  if (head == own_library_head()) return;
+  const std::string other = beside(path, stem_of_path(path) + "_sphparam.obj");
+  throw WriteError(library, "is there, and is no library of an export: -o " + shell_file(other) +
+                                " leaves it as it is");
 }
 
 TexturedFiles add_textured_mesh(PendingFiles& files, const std::string& path,
@@ -192,6 +210,7 @@ TexturedFiles add_textured_mesh(PendingFiles& files, const std::string& path,
                                 const ExportOptions& options) {
   const bool obj = is_obj(path);
   const AssetImage& image = shown_image(look);
+  require_own_library(path);
   require_export_domain(options);
   const ExportChart chart = chart_of_level(mapped, options);
   const FillerMarks fillers = fillers_of_chart(chart.chart, mapped.fillers());
@@ -206,9 +225,11 @@ TexturedFiles add_textured_mesh(PendingFiles& files, const std::string& path,
   const std::string image_name = fs::path(image_path).filename().string();
   Adder adder(files);
   if (obj) {
-    const std::string library = stem_of_path(path) + ".mtl";
+    const std::string library = fs::path(library_of(path)).filename().string();
+    if (const auto words = numbers_not_shown(textured); !words.empty())
+      add_loss(result.warnings, joined(words, " and ") + ": .ply has room for that");
     adder.add(path, obj_with_library(textured, library), check);
-    adder.add(beside(path, library), material_library(image_name));
+    adder.add(library_of(path), material_library(image_name));
   } else {
     textured.comments.push_back("TextureFile " + image_name);
     adder.add(path, serialise_ply(textured), check);

@@ -20,6 +20,7 @@
 #include "io/attributes/appearance.h"
 #include "io/attributes/corner_colours.h"
 #include "io/attributes/finish_terms.h"
+#include "io/attributes/material_comments.h"
 #include "io/attributes/one_material.h"
 #include "io/attributes/shading_normals.h"
 #include "io/attributes/source_attributes.h"
@@ -203,6 +204,7 @@ class LookMaker {
     }
     textures_ = read_textures(file, options_.threads);
     if (!textures_.empty()) take_one_material(given);
+    tell_left_behind();
     std::ranges::move(warnings_of(textures_), std::back_inserter(look_.warnings));
     // Vertex colours would tint all variants: where there are some, they are baked too, as are
     // those of vertices that have several.
@@ -222,6 +224,13 @@ class LookMaker {
       material_.name = "checker";
       material_.base_colour = add(drawn(TestImage::Checker));
     }
+  }
+
+  void tell_left_behind() {
+    if (const std::string words = left_behind_texture(mapped_.file()); !words.empty())
+      look_.warnings.push_back(source_name(mapped_, options_) +
+                               ": shown without its texture, which is not in this file (" + words +
+                               ")");
   }
 
   /// Of the mesh's own materials what is no image.

@@ -8,8 +8,10 @@
 #include "gltf/level.h"
 #include "io/attributes/appearance.h"
 #include "io/attributes/authorship.h"
+#include "io/attributes/remarks.h"
 #include "number_text.h"
 #include "sphparam/gltf/export.h"
+#include "sphparam/io/losses.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/upright_frame.h"
 
@@ -87,6 +89,21 @@ void add_axes(Asset& asset, const UprightAxes& axes) {
   asset.extras.emplace_back("front", name_of_direction(axes.front));
 }
 
+/// But for what glTF has a place for.
+void add_comments(Asset& asset, const MeshFile& file) {
+  MeshFile said;
+  said.comments = file.comments;
+  note_authorship(said, {});
+  const std::vector<std::string> remarks = remarks_of(said);
+  if (!remarks.empty()) asset.extras.emplace_back("comments", joined(remarks, "\n"));
+}
+
+/// In one line.
+void tell_numbers_left_out(const MeshFile& file, std::vector<std::string>& warnings) {
+  const std::vector<std::string> words = numbers_not_shown(file);
+  if (!words.empty()) add_loss(warnings, joined(words, " and ") + ": .ply has room for that");
+}
+
 Asset without_levels(const MappedMesh& mapped, const Look& look, const ExportOptions& options) {
   Authorship author = noted_authorship(mapped.file());
   Asset asset{.name = name_of_asset(mapped, options),
@@ -103,6 +120,8 @@ Asset without_levels(const MappedMesh& mapped, const Look& look, const ExportOpt
     asset.extras.emplace_back("map_" + key, value);
   if (options.up != Up{} || noted_up(mapped.file()) != Up{})
     add_axes(asset, upright_axes(mapped.file(), options.up));
+  add_comments(asset, mapped.file());
+  tell_numbers_left_out(mapped.file(), asset.warnings);
   return asset;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "io/attributes/corner_colours.h"
+#include "io/attributes/remarks.h"
 #include "io/attributes/shading_normals.h"
 #include "io/attributes/weightiest_label.h"
 #include "sphparam/chart/carry_attributes.h"
@@ -92,6 +93,7 @@ MeshFile textured_mesh(const ExportChart& exported, const MeshFile& source, Shap
   };
   MeshFile file;
   file.mesh.triangles = chart.triangles;
+  file.comments = remarks_of(source);
   const bool is_sphere = shape == ShapeKind::Sphere;
   file.mesh.positions = is_sphere ? chart.points : Points(of_vertices(source.mesh.positions));
   carry(source.vertex_properties, file.vertex_properties, [&](const Property& property) {
@@ -123,14 +125,16 @@ MeshFile textured_mesh(const ExportChart& exported, const MeshFile& source, Shap
 
 std::string obj_with_library(const MeshFile& mesh, const std::string& library) {
   std::string obj = serialise_obj(mesh);
-  std::size_t comments = 0;  // readers take those that come first
+  std::size_t comments = 0;  // they come first
   while (comments < obj.size() && obj[comments] == '#') comments = obj.find('\n', comments) + 1;
   return obj.insert(comments, "mtllib " + library + "\n");
 }
 
-std::string material_library(const std::string& image) {
+std::string own_library_head() {
   return std::string("newmtl ") + material_name +
-         "\nKa 0 0 0\nKd 1 1 1\nKs 0 0 0\nillum 1\nmap_Kd " + image + "\n";
+         "\nKa 0 0 0\nKd 1 1 1\nKs 0 0 0\nillum 1\nmap_Kd ";
 }
+
+std::string material_library(const std::string& image) { return own_library_head() + image + "\n"; }
 
 }  // namespace sphparam

@@ -190,11 +190,15 @@ struct TexturedFiles {
 /// Of an .obj its .mtl and an image, of a .ply an image that a comment names.
 std::vector<std::string> textured_files(const std::string& path, const Look& look);
 
+/// For programs that want to know before work: throws WriteError where the .mtl of an .obj of this
+/// name is there and was not written by an export, as other meshes may need it.
+void require_own_library(const std::string& path);
+
 /// Adds an .obj or .ply with (u, v) at corners, and what it names. What is on the disk is read back
 /// and its (u, v) are certified. Of `options`: convention, refine_poles, keep_topology, source,
 /// threads, progress; `shape`: the mesh or its sphere.
-/// Throws: WriteError; UnmeasurableMesh for positions that are no finite numbers;
-/// std::runtime_error where what was read back differs; NotCertifiedError and
+/// Throws: WriteError, as `require_own_library` too; UnmeasurableMesh for positions that are no
+/// finite numbers; std::runtime_error where what was read back differs; NotCertifiedError and
 /// std::invalid_argument as `make_asset`, for a look without an image, and for other endings.
 TexturedFiles add_textured_mesh(PendingFiles& files, const std::string& path,
                                 const MappedMesh& mapped, const Look& look,

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "io/attributes/appearance.h"
+#include "io/attributes/texture_pages.h"
 #include "number_text.h"
 
 namespace sphparam {
@@ -51,6 +53,15 @@ std::optional<std::array<double, 3>> diffuse_beside_texture(const MeshFile& file
     at = stop < end ? stop + 1 : stop;
   }
   return diffuse;
+}
+
+std::string left_behind_texture(const MeshFile& file) {
+  if (!file.base_colours.empty() || !has_texcoords(file)) return "";
+  const auto names_image = [](std::string_view comment) {
+    return comment.starts_with("base colour of ") || comment.starts_with(texture_page_comment);
+  };
+  const auto found = std::ranges::find_if(file.comments, names_image);
+  return found == file.comments.end() ? "" : *found;
 }
 
 void note_nearest(MeshFile& file, std::size_t material, const std::vector<std::string>& textures) {

@@ -20,6 +20,10 @@ void note_texture(MeshFile& file, const std::string& material, const std::string
 std::optional<std::array<double, 3>> diffuse_beside_texture(const MeshFile& file,
                                                             const std::string& material);
 
+/// The comment that says which textures a mesh has that are not here, as its file was made of one
+/// that has them; empty where they are here, or never were.
+std::string left_behind_texture(const MeshFile& file);
+
 /// Which textures of the material, by its number, have texels that are seen as they are where they
 /// are larger than what is drawn of them: "base colour", "roughness", "metallic", "normal",
 /// "occlusion", "emissive".
