@@ -187,6 +187,8 @@ TEST_CASE("program: options that all subcommands have may stand before them") {
     CHECK(sphparam_program({"-q", command, "-"}, ball).out.empty());
     CHECK(sphparam_program({"--progress", "none", command, "-"}, ball).code == 0);
   }
+  CHECK(sphparam_program({"--threads", "1", "info", "-"}, ball).code == 0);
+  CHECK(sphparam_program({"--threads", "1", "repair", "-", "-o", "-"}, ball).code == 0);
   CHECK(sphparam_program({"-q"}).code == 2);
   CHECK(sphparam_program({"-q", "mpa", "x.obj"}).code == 2);
 }

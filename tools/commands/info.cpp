@@ -86,6 +86,7 @@ int run_info(InfoArguments& arguments) {
 void declare_options(Declaration& command, InfoArguments& arguments) {
   command.input("MESH", arguments.input, readable_formats("or") + "; - for standard input")
       .json(arguments)
+      .threads(arguments)
       .console(arguments);
 }
 

@@ -122,7 +122,7 @@ void declare_options(Declaration& command, RepairCommandArguments& arguments) {
       .data(arguments.data)
       .json(arguments);
   declare_repair_and_loops(command, arguments.repair);
-  command.console(arguments);
+  command.threads(arguments).console(arguments);
 }
 
 }  // namespace

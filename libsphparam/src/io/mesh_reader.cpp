@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <span>
 
 #include "io/files/file_bytes.h"
 #include "io/files/gzip.h"
@@ -42,11 +43,21 @@ constexpr ForeignFormat foreign_extensions[] = {
     {".msh", "MSH"}, {".stp", "STEP"},    {".step", "STEP"},
 };
 
+// Of those in ZIP or XML, which is all that their first bytes say.
+constexpr ForeignFormat foreign_wrapped[] = {
+    {".3mf", "3MF"}, {".amf", "AMF"}, {".usdz", "USDZ"}, {".x3d", "X3D"}};
+
 std::string supported() { return readable_formats("and") + " files are"; }
 
 [[noreturn]] void refuse(const std::string& name, const char* format) {
   throw ReadError(name,
                   std::string("this is ") + format + ", which is not supported; " + supported());
+}
+
+void refuse_foreign_name(std::span<const ForeignFormat> formats, const std::string& extension,
+                         const std::string& name) {
+  for (const auto& [foreign, format] : formats)
+    if (extension == foreign) refuse(name, format);
 }
 
 void refuse_foreign_content(std::string_view bytes, const std::string& name) {
@@ -92,16 +103,16 @@ const MeshFormat* recognised(std::string_view bytes, Evidence evidence) {
 const MeshFormat& format_of(std::string_view bytes, const std::string& name) {
   for (const Evidence evidence : {Evidence::MagicWord, Evidence::Layout})
     if (const MeshFormat* format = recognised(bytes, evidence)) return *format;
+  const std::string extension = inner_extension_of(name);
+  refuse_foreign_name(foreign_wrapped, extension, name);
   refuse_foreign_content(bytes, name);
   refuse_nifti(bytes, name);
-  const std::string extension = inner_extension_of(name);
   const MeshFormat* const named = format_of_extension(extension);
   if (named && named->looks_so(bytes)) return *named;
   if (const MeshFormat* format = recognised(bytes, Evidence::Text)) return *format;
   if (named) return *named;
   if (extension == ".nii") refuse_volume(name);
-  for (const auto& [foreign, format] : foreign_extensions)
-    if (extension == foreign) refuse(name, format);
+  refuse_foreign_name(foreign_extensions, extension, name);
   throw ReadError(name, "the format is not recognised; " + supported());
 }
 
