@@ -15,6 +15,7 @@
 #include "sphparam/survey/survey.h"
 #include "support/joined.h"
 #include "support/one_sided.h"
+#include "support/place.h"
 #include "support/shaken.h"
 #include "support/test_meshes.h"
 #include "support/without_area.h"
@@ -118,6 +119,24 @@ void write_tetrahedron(const fs::path& path, const std::vector<std::uint16_t>& i
 }
 
 }  // namespace
+
+TEST_CASE("survey: what maps as it is and yet is odd is told, in records and on the page") {
+  const Place place;
+  const Meshes meshes;
+  TriangleMesh inside_out = icosphere(1);
+  inside_out.triangles.col(1).swap(inside_out.triangles.col(2));
+  meshes.write("turned.obj", inside_out);
+  const SurveyOptions options{.picture_size = 0, .records = place / ""};
+  for (int time = 0; time < 2; ++time) {  // found, then taken from its record
+    const Survey survey = survey_folder(meshes.folder.string(), options);
+    const SurveyedMesh& turned = named(survey, "turned.obj");
+    CHECK(turned.end == SurveyEnd::Maps);
+    CHECK(turned.defects.empty());
+    REQUIRE(turned.oddities.size() == 1);
+    CHECK(contains(turned.oddities[0], "inside out"));
+    CHECK(contains(survey_page(survey), "turned.obj: inside out"));
+  }
+}
 
 TEST_CASE("survey: every mesh of a folder comes to its end, with its reasons and its pictures") {
   const Meshes meshes;

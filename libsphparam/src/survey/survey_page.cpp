@@ -137,6 +137,7 @@ void add_mesh(Page& page, const Survey& survey, std::size_t k, const std::string
   page.subheading(mesh.name, id_of(k));
   add_pictures(page, mesh);
   add_list(page, "As it is:", mesh.defects);
+  add_list(page, "Odd, and in no map's way:", mesh.oddities);
   const bool mended = !mesh.ways.empty() && mesh.reasons.empty();
   const std::string repair = mesh.ways.empty() ? "Repair" : mesh.ways.front().options;
   add_list(page, repair + (mended ? " does:" : " would do, in vain:"), mesh.repairs);
@@ -156,6 +157,17 @@ void add_section(Page& page, const Section& section, const Survey& survey,
   page.heading(section.heading);
   for (std::size_t k = 0; k < survey.meshes.size(); ++k)
     if (survey.meshes[k].end == section.end) add_mesh(page, survey, k, maps[k]);
+}
+
+/// Of what maps as it is, which has no section.
+void add_oddities(Page& page, const Survey& survey) {
+  std::vector<std::string> lines;
+  for (const SurveyedMesh& mesh : survey.meshes)
+    for (const std::string& oddity : mesh.oddities)
+      if (mesh.end == SurveyEnd::Maps) lines.push_back(mesh.name + ": " + oddity);
+  if (lines.empty()) return;
+  page.heading("Map as they are, and are odd");
+  page.list(lines);
 }
 
 }  // namespace
@@ -183,6 +195,7 @@ std::string survey_page(const Survey& survey) {
   page.table(table_of(survey));
   const std::vector<std::string> maps = names_of_maps(survey);
   for (const Section& section : sections) add_section(page, section, survey, maps);
+  add_oddities(page, survey);
   return page.html();
 }
 

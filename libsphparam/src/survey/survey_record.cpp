@@ -30,6 +30,7 @@ Json json_of(const SurveyedMesh& mesh) {
           {"boundaries", mesh.boundaries},
           {"genus", mesh.genus < 0 ? Json() : Json(mesh.genus)},
           {"defects", mesh.defects},
+          {"oddities", mesh.oddities},
           {"ways", ways},
           {"needs", best ? Json(best->options) : Json()},
           {"repairs", mesh.repairs},
@@ -61,6 +62,7 @@ SurveyedMesh mesh_of(const Json& json) {
   mesh.boundaries = json.at("boundaries");
   mesh.genus = json.at("genus").is_null() ? -1 : json.at("genus").get<long>();
   json.at("defects").get_to(mesh.defects);
+  json.at("oddities").get_to(mesh.oddities);
   for (const Json& way : json.at("ways"))
     mesh.ways.push_back(
         {way.at("options"), way.at("certified"), way.at("told"), way.at("area_share")});

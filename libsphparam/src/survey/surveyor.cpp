@@ -26,10 +26,11 @@ constexpr const char* unasked_way = "--repair";
 constexpr const char* components_way = "--repair --all-components";
 constexpr const char* no_memory = "there is not enough memory for it";
 
-std::vector<std::string> messages(const std::vector<MeshDefect>& defects) {
+/// Of those that stand in the way of a map, or of the others.
+std::vector<std::string> messages(const std::vector<MeshDefect>& defects, bool fatal = true) {
   std::vector<std::string> texts;
   for (const MeshDefect& defect : defects)
-    if (defect.fatal) texts.push_back(defect.message);
+    if (defect.fatal == fatal) texts.push_back(defect.message);
   return texts;
 }
 
@@ -64,7 +65,7 @@ class Surveyor {
     } catch (const std::exception& error) {  // of this file, not of the survey
       end(SurveyEnd::CannotMap, error.what());
     }
-    for (auto* texts : {&mesh_.defects, &mesh_.repairs, &mesh_.reasons})
+    for (auto* texts : {&mesh_.defects, &mesh_.oddities, &mesh_.repairs, &mesh_.reasons})
       for (std::string& text : *texts) text = by_name(std::move(text));
     for (SurveyedWay& way : mesh_.ways) way.told = by_name(std::move(way.told));
     return std::move(mesh_);
@@ -82,6 +83,7 @@ class Surveyor {
     mesh_.genus = found.genus;
     for (std::string& message : messages(found.defects))
       mesh_.defects.push_back(std::move(message));
+    mesh_.oddities = messages(found.defects, false);
     if (found.is_sphere() && mesh_.defects.empty()) {
       certify(source);
       mesh_.end = SurveyEnd::Maps;

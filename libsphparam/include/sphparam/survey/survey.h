@@ -48,6 +48,7 @@ struct SurveyedMesh {
   long vertices = 0, triangles = 0, components = 0, boundaries = 0;  // as it was read
   long genus = -1;                      // of the one component; −1 where it has no meaning
   std::vector<std::string> defects;     // that stand in the way of a map as it is
+  std::vector<std::string> oddities;    // that do not: it is inside out, faces have no area, …
   std::vector<SurveyedWay> ways;        // around them: the first is what `repairs` tell of
   std::vector<std::string> repairs;     // that were done, or tried in vain
   std::vector<std::string> reasons;     // why there is no map even so
