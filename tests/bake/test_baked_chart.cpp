@@ -1,9 +1,11 @@
 #include <catch2/catch.hpp>
 
 #include "bake/baked_chart.h"
+#include "support/test_meshes.h"
 #include "texture/baked_texts.h"
 
 using namespace sphparam;
+using namespace sphparam::tests;
 
 TEST_CASE("baked chart: what an image says of its chart is read again, a text each or all in one") {
   CHECK(pole_wedges_of(texts_of_chart(true, 4)) == 4);
@@ -19,4 +21,32 @@ TEST_CASE("baked chart: what an image says of its chart is read again, a text ea
   CHECK(baked_text(one, "sphparam:map") == "position");
   CHECK(baked_text(one, "sphparam:ma").empty());
   CHECK(baked_text(one, "Software") == "sphparam:interpolation=sphere");
+}
+
+TEST_CASE(
+    "baked chart: an image of another map of the same mesh is told, of another mesh it is not") {
+  const auto mapped = [](const TriangleMesh& mesh, const Points& rays) {
+    MeshFile file;
+    file.mesh = mesh;
+    return MappedMesh({.file = file, .map = SphereMap{rays}, .name = "ball.sph.ply"});
+  };
+  const TriangleMesh ball = icosphere(1);
+  Points rays = ball.positions.rowwise().normalized(), turned = rays;
+  turned << rays.col(1), rays.col(2), rays.col(0);
+  const MappedMesh own = mapped(ball, rays), other = mapped(ball, turned);
+  const ImageTexts texts = texts_of_map(own);
+  CHECK(texts.front().first == "sphparam:rays");
+  CHECK(texts.front().second.starts_with("42 rays, "));
+  CHECK(warning_of_other_map("ao.png", texts, own).empty());
+  rays.row(0) *= 1 + 1e-12;
+  CHECK(texts_of_map(mapped(ball, rays)) == texts);
+  CHECK(
+      warning_of_other_map("ao.png", texts, other) ==
+      "ao.png is baked on another map of this mesh than ball.sph.ply has, and stands elsewhere on "
+      "it: `sphparam bake` with the map of ball.sph.ply makes the image anew, the mesh with the "
+      "map that it was baked on shows it as it is");
+  const TriangleMesh fine = icosphere(2);
+  CHECK(warning_of_other_map("ao.png", texts, mapped(fine, fine.positions.rowwise().normalized()))
+            .empty());
+  CHECK(warning_of_other_map("ao.png", {}, other).empty());
 }

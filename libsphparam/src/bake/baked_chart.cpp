@@ -1,6 +1,8 @@
 #include "bake/baked_chart.h"
 
+#include <bit>
 #include <charconv>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -10,13 +12,46 @@ namespace sphparam {
 namespace {
 
 constexpr std::string_view interpolation = "sphparam:interpolation",
-                           wedges = "sphparam:refine_poles";
+                           wedges = "sphparam:refine_poles", rays = "sphparam:rays";
+
+/// FNV-1a of the coordinates as float32, −0 as 0, little-endian: what differs less is one map,
+/// written and read.
+std::uint64_t hash_of(const Points& rays) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (Eigen::Index i = 0; i < rays.size(); ++i) {
+    const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(rays.data()[i]) + 0.0F);
+    for (int shift = 0; shift < 32; shift += 8)
+      hash = (hash ^ (bits >> shift & 0xff)) * 0x100000001b3;
+  }
+  return hash;
+}
+
+std::string head_of_rays(const MappedMesh& mapped) {
+  return std::to_string(mapped.map().points.rows()) + " rays, ";
+}
 
 }  // namespace
 
 ImageTexts texts_of_chart(bool linear_in_uv, int pole_wedges) {
   return {{std::string(interpolation), linear_in_uv ? "uv" : "sphere"},
           {std::string(wedges), std::to_string(pole_wedges)}};
+}
+
+ImageTexts texts_of_map(const MappedMesh& mapped) {
+  char digits[16];
+  const auto end =
+      std::to_chars(digits, digits + sizeof digits, hash_of(mapped.map().points), 16).ptr;
+  return {{std::string(rays), head_of_rays(mapped) + std::string(digits, end)}};
+}
+
+std::string warning_of_other_map(const std::string& name, const ImageTexts& texts,
+                                 const MappedMesh& mapped) {
+  const std::string_view said = baked_text(texts, rays);
+  if (!said.starts_with(head_of_rays(mapped)) || said == texts_of_map(mapped).front().second)
+    return "";
+  return name + " is baked on another map of this mesh than " + mapped.name() +
+         " has, and stands elsewhere on it: `sphparam bake` with the map of " + mapped.name() +
+         " makes the image anew, the mesh with the map that it was baked on shows it as it is";
 }
 
 std::optional<int> pole_wedges_of(const ImageTexts& texts) {

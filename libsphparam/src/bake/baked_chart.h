@@ -1,8 +1,10 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "image/image_codec.h"
+#include "sphparam/io/mapped_mesh.h"
 
 namespace sphparam {
 
@@ -10,6 +12,16 @@ namespace sphparam {
 /// to the triangles of one chart: on another one, with triangles at the poles cut otherwise, they
 /// would stand on the wrong ones there. `pole_wedges`: as `refine_poles` takes them.
 ImageTexts texts_of_chart(bool linear_in_uv, int pole_wedges);
+
+/// The text that tells maps of one mesh apart: "3458 rays, 9f…", a hash of them as float32, in the
+/// order of the vertices. Cost: O(#V).
+ImageTexts texts_of_map(const MappedMesh& mapped);
+
+/// "ao.png is baked on another map …", where an image says one of as many rays that are others;
+/// empty of images of strangers, and of meshes with another number of vertices, whose map may be
+/// the same. `name`: of the image, for people.
+std::string warning_of_other_map(const std::string& name, const ImageTexts& texts,
+                                 const MappedMesh& mapped);
 
 /// Into how many wedges the pole triangles are cut of the chart that an image was baked for;
 /// nothing for images that suit any chart: those of strangers, and those baked by direction.

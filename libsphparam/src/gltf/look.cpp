@@ -175,6 +175,7 @@ class LookMaker {
   /// Refuses what was baked for another chart.
   GivenImage read(const std::string& path, const std::string& name) {
     GivenImage given = read_asset_image(path, name, look_.warnings);
+    tell_other_map(path, given.texts);
     const std::optional<int> baked = pole_wedges_of(given.texts);
     if (baked && *baked != options_.refine_poles) throw ImageOfOtherChart(path, *baked);
     const std::optional<Convention> convention = baked_convention_of(given.texts);
@@ -185,6 +186,14 @@ class LookMaker {
                       ": --convention " + baked_in + " shows it as it is");
     }
     return given;
+  }
+
+  /// Once: all images of a folder were baked together.
+  void tell_other_map(const std::string& path, const ImageTexts& texts) {
+    if (is_other_map_told_) return;
+    std::string warning = warning_of_other_map(display_name(path), texts, mapped_);
+    is_other_map_told_ = !warning.empty();
+    if (is_other_map_told_) look_.warnings.push_back(std::move(warning));
   }
 
   void choose_base_colour(const BakedImages& given) {
@@ -298,6 +307,7 @@ class LookMaker {
   Look look_;
   Material material_;
   bool baked_unlit_ = false;  // what the base colour says
+  bool is_other_map_told_ = false;
   std::vector<SourceTexture> textures_;
   std::vector<PaintedSurface> surfaces_;
 };
