@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <limits>
 
 #include "sphparam/mesh/mesh_defects.h"
@@ -189,6 +190,22 @@ TEST_CASE("mesh_defects: corners at both ends of the doubles are measured, as fa
   mesh.positions = (mesh.positions.array() + 1) * std::numeric_limits<double>::denorm_min();
   CHECK(inspect_mesh(mesh).area == 0);
   CHECK(inspect_mesh(mesh).volume == 0);
+}
+
+TEST_CASE("mesh_defects: whether faces have area is told alike at every size") {
+  TriangleMesh flat = octahedron();  // two faces have none
+  flat.positions.row(flat.triangles(0, 1)) = flat.position(flat.triangles(0, 0));
+  for (int exponent = -300; exponent <= 300; exponent += 10) {
+    INFO("1e" << exponent);
+    const double size = std::pow(10.0, exponent);
+    TriangleMesh mesh = octahedron();
+    mesh.positions *= size;
+    CHECK(inspect_mesh(mesh).defects.empty());
+    mesh.positions = size * flat.positions;
+    const MeshInspection inspection = inspect_mesh(mesh);
+    REQUIRE(find(inspection, DefectKind::ZeroAreaFace));
+    CHECK(find(inspection, DefectKind::ZeroAreaFace)->count == 2);
+  }
 }
 
 TEST_CASE("mesh_defects: an unused vertex, however far off, changes no size") {

@@ -125,7 +125,7 @@ void mend_flat_faces(RepairState& state) {
 }
 
 bool has_no_area(const Vector3& a, const Vector3& b, const Vector3& c) {
-  constexpr double harmless = 1e100;  // and its reciprocal: squares are numbers
+  constexpr double harmless = 1e50;  // and its reciprocal: squares of areas are numbers
   Vector3 one = b / 2 - a / 2, other = c / 2 - a / 2;
   const double size = std::max(one.cwiseAbs().maxCoeff(), other.cwiseAbs().maxCoeff());
   if (!(size > 0)) return true;
