@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
@@ -488,6 +489,20 @@ TEST_CASE("export: .obj and .ply have the object's comments, and .ply its number
   const MeshFile obj = read_mesh(place / "a.obj");
   CHECK(obj.comments == Names{"Inv. 12", "unit: m", "copyright The Museum",
                               "base colour of sphparam: texture a_checker.png"});
+}
+
+TEST_CASE("export: the image of an .obj or .ply has the colours of the vertices") {
+  const Place place;
+  MeshFile file = mapped_egg(2).file();
+  const auto count = static_cast<std::size_t>(file.mesh.vertex_count());
+  for (const auto& [name, value] : {std::pair("red", 200), {"green", 30}, {"blue", 0}})
+    file.set_vertex_property({name, ScalarType::Uint8, std::vector<double>(count, value)});
+  write_textured_mesh(place / "a.ply",
+                      MappedMesh({.file = std::move(file), .map = mapped_egg(2).map()}), small);
+  CHECK(place.names() == Names{"a.ply", "a_baked.png"});
+  const Image image = read_image(place / "a_baked.png");
+  for (int c = 0; c < 3; ++c)
+    CHECK(std::lround(255 * image.pixel(9, 9)[c]) == std::array{200, 30, 0}[c]);
 }
 
 TEST_CASE("export: a texture that is not with its mesh is told where something else is shown") {

@@ -57,6 +57,9 @@ ExportOptions export_options(const ExportArguments& arguments, Session& session)
   options.progress = session.progress();
   // On a sphere 16 bits would fold triangles that float32 does not.
   if (arguments.compress && options.shape != ShapeKind::Sphere) options.quantise = true;
+  // Texts have an image in any case, beside which colours of vertices are not seen.
+  const std::string kind = extension_of(arguments.output);
+  options.look.bake_colours = kind == ".obj" || kind == ".ply";
   return options;
 }
 

@@ -243,9 +243,11 @@ TexturedFiles add_textured_mesh(PendingFiles& files, const std::string& path,
 
 TexturedFiles write_textured_mesh(const std::string& path, const MappedMesh& mapped,
                                   const ExportOptions& options) {
+  ExportOptions baking = options;
+  baking.look.bake_colours = true;  // beside an image they are not seen there
   PendingFiles files;
   TexturedFiles written =
-      add_textured_mesh(files, path, mapped, make_look(mapped, options), options);
+      add_textured_mesh(files, path, mapped, make_look(mapped, baking), options);
   files.publish();
   return written;
 }
