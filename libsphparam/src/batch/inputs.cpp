@@ -168,7 +168,7 @@ class Finder {
     if (id.empty() || is_shape_id(id)) return id;
     throw BatchInputError(display_name(place) + ": the id '" + id +
                           "' names a folder: letters, digits, '.', '_' and '-' are for it, no '.' "
-                          "at first, and 100 bytes at most");
+                          "or '-' at first, and 100 bytes at most");
   }
 
   void folder(const fs::path& place) {

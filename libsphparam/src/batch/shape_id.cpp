@@ -49,7 +49,7 @@ bool is_letter(std::uint32_t code) {
 /// Each character that may not stand there as '_', up to so many bytes.
 std::string with_letters_only(std::string_view text, std::size_t most) {
   std::string id;
-  if (text.empty() || text.front() == '.') id = "_";
+  if (text.empty() || text.front() == '.' || text.front() == '-') id = "_";
   for (std::size_t at = 0; at < text.size();) {
     const Character character = character_at(text, at);
     const bool stays = character.valid && is_letter(character.code);

@@ -6,8 +6,8 @@
 namespace sphparam {
 
 /// What the folder of a shape's results is called, on every file system and in every shell without
-/// quotes: letters of any alphabet (as UTF-8), digits, '.', '_' and '-', no '.' at first, and at
-/// most 100 bytes, as others come behind it in names of files.
+/// quotes: letters of any alphabet (as UTF-8), digits, '.', '_' and '-', no '.' or '-' at first,
+/// and at most 100 bytes, as others come behind it in names of files.
 bool is_shape_id(std::string_view text);
 
 /// An id of any text, the same for the same: '_' stands for each character that is none of those,
