@@ -47,7 +47,8 @@ void tell_cost(MapInProgress& work) {
 
 /// A meridian needs none.
 void go_without_poles(MapInProgress& work, const std::string& reason) {
-  work.warn(reason + ": the map has no poles");
+  work.warn(reason +
+            ": the map has no vertices at ±z, where triangles are split for textures, no more");
   if (work.options.meridian) turn(work, work.result.map, *work.options.meridian);
 }
 
