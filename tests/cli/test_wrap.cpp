@@ -128,6 +128,10 @@ TEST_CASE("wrap command: what makes no sense is refused, and nothing is written"
   CHECK_THAT(refused({"--voxel", "0.1", "--distance", "0.05"}, soup()).err,
              Contains("--distance is 0.05: it must be a finite number, at least 0.1"));
   CHECK(refused({"--voxel", "1", "--resolution", "9"}, soup()).code == 2);
+  for (const char* option : {"--voxel", "--distance", "--resolution"}) {  // not what is usual
+    CHECK(refused({option, "0"}, soup()).code == 2);
+    CHECK_THAT(refused({option, "0"}, soup()).err, Contains(option));
+  }
   CHECK(refused({}, "v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n").code == 3);
   CHECK(refused({}, "v 0 0 0\n").code == 3);
   CHECK(refused({}, "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n").code == 4);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -112,14 +113,15 @@ int run_wrap(WrapArguments& arguments) {
 
 void declare_options(Declaration& command, WrapArguments& arguments) {
   WrapOptions& options = arguments.options;
-  const Range<double> length = {.words = "0 on"};
+  const Range<double> length = {.least = std::numeric_limits<double>::denorm_min(),
+                                .words = "just above 0 on"};
   command.input("SOUP", arguments.input, readable_formats("or") + "; - for standard input")
       .output(arguments.output, "FILE",
               "The closed surface, in the format of its name; - for standard output")
       .number("--voxel", options.voxel, "LENGTH", length,
               "How fine: between the points of the lattice, in units of the mesh")
       .preset("the longest side of the box / 128, at most half of --distance")
-      .number("--resolution", options.resolution, "N", {0, 100'000},
+      .number("--resolution", options.resolution, "N", {1, 100'000},
               "How fine: voxels along the longest side of the box")
       .preset("128")
       .number("--distance", options.distance, "LENGTH", length,
