@@ -166,12 +166,22 @@ TEST_CASE("image codec: a JPEG that ends early or is damaged is refused") {
   std::vector<char> longer = whole;
   longer.resize(whole.size() + 200, '\0');  // what follows the end is nobody's
   CHECK(decode_image(longer, "l.jpg").pixels == decode_image(whole, "w.jpg").pixels);
+  longer.insert(longer.end(), {'\xff', '\xda'});  // in a film behind a picture, say
+  CHECK(decode_image(longer, "l.jpg").pixels == decode_image(whole, "w.jpg").pixels);
   for (const double share : {0.3, 0.5, 0.9}) {
     const auto size = static_cast<std::ptrdiff_t>(share * static_cast<double>(whole.size()));
     CHECK_THROWS_WITH(decode_image({whole.begin(), whole.begin() + size}, "cut.jpg"),
                       Contains("cut.jpg: is cut off"));
   }
   CHECK_THROWS_WITH(decode_image({whole.begin(), whole.end() - 2}, "cut.jpg"),
+                    Contains("cut.jpg: is cut off"));
+  std::vector<char> with_thumbnail = whole;  // a whole JPEG in an APP1 segment, behind the start
+  const std::string head = {'\xff', '\xe1', static_cast<char>((whole.size() + 2) >> 8),
+                            static_cast<char>(whole.size() + 2)};
+  with_thumbnail.insert(with_thumbnail.begin() + 2, whole.begin(), whole.end());
+  with_thumbnail.insert(with_thumbnail.begin() + 2, head.begin(), head.end());
+  CHECK(decode_image(with_thumbnail, "t.jpg").pixels == decode_image(whole, "w.jpg").pixels);
+  CHECK_THROWS_WITH(decode_image({with_thumbnail.begin(), with_thumbnail.end() - 2}, "cut.jpg"),
                     Contains("cut.jpg: is cut off"));
   std::vector<char> damaged = whole;
   std::fill_n(damaged.end() - static_cast<std::ptrdiff_t>(whole.size() / 3), 64, '\xff');

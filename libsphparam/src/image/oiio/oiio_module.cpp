@@ -121,11 +121,19 @@ void tell_texts(const OIIO::ImageSpec& spec, SphparamTextSink text, void* contex
   }
 }
 
-/// Whether no end follows the last scan of a JPEG. (In a scan, 0xff is never before 0xda or 0xd9;
-/// a thumbnail that has both lies before.)
+/// Behind the segments of a JPEG's head, of which one may hold a thumbnail, with scan and end.
+size_t first_scan(std::string_view jpeg) {
+  const auto byte = [&](size_t i) { return i < jpeg.size() ? static_cast<uint8_t>(jpeg[i]) : 0U; };
+  size_t at = 2;
+  while ((at = jpeg.find('\xff', at)) != jpeg.npos && byte(at + 1) != 0xda)
+    at += byte(at + 1) == 0xff ? 1 : 2 + 256 * byte(at + 2) + byte(at + 3);
+  return at;
+}
+
+/// Whether no end follows. (In a scan, 0xff is never before 0xd9; what is behind the end, as films
+/// of telephones are, does not matter.)
 bool is_cut_off(std::string_view jpeg) {
-  const size_t scan = jpeg.rfind("\xff\xda"), end = jpeg.rfind("\xff\xd9");
-  return end == jpeg.npos || (scan != jpeg.npos && end < scan);
+  return jpeg.find("\xff\xd9", first_scan(jpeg)) == jpeg.npos;
 }
 
 /// What libjpeg only warns of, painting grey: data of a JPEG that end early or are damaged. Empty:
