@@ -287,6 +287,10 @@ TEST_CASE("obj_reader: comments between and behind the statements are kept, the 
   CHECK(first.comments.size() == 1001);
   CHECK(first.comments.back() == "999");
   CHECK(first.notes == std::vector<std::string>{"not carried: 2 comments behind the first 1000"});
+  const MeshFile polypaint =
+      read(three_vertices + "#MRGB ffff0000ffff0000\n#MRGB ffff0000\nf 1 2 3\n", "a.obj");
+  CHECK(polypaint.comments.empty());
+  CHECK(polypaint.notes == std::vector<std::string>{"not carried: 2 '#MRGB' statements"});
 }
 
 TEST_CASE("obj_reader: third texture coordinates are told where they say something") {

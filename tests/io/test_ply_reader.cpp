@@ -535,8 +535,9 @@ TEST_CASE("ply_reader: colours are read as programs write them") {
         std::pair(ScalarType::Float32,
                   Values{0.5, static_cast<double>(static_cast<float>(1.0 / 255))}));
   CHECK(of(halves, "blue") == std::pair(ScalarType::Float32, Values{0, 1}));
-  // Brighter than white in one channel, and beyond what a byte says.
+  // Brighter than white in one channel, in all of them, and beyond what a byte says.
   for (const MeshFile& file : {with_colours("", "float", "1.5 0.5 0", "1 0 1"),
+                               with_colours("", "float", "1.02 1.01 1.25", "1 0 16"),
                                with_colours("", "float", "300 30 2", "1 0 0"),
                                with_colours("", "float", "1 0 1", "1 0 0")}) {
     CHECK(file.find_vertex_property("red")->type == ScalarType::Float32);

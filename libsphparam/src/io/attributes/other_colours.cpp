@@ -11,7 +11,8 @@ namespace sphparam {
 namespace {
 
 constexpr std::array<const char*, 4> colour_names = {"red", "green", "blue", "alpha"};
-constexpr double most = 255;  // of a byte
+constexpr double most = 255;       // of a byte
+constexpr double most_light = 16;  // of fractions that are brighter than white
 
 Property* named(std::vector<Property>& properties, const std::string& name) {
   const auto found = std::ranges::find(properties, name, &Property::name);
@@ -59,13 +60,16 @@ bool are_whole(const std::vector<Property*>& colours) {
 
 bool are_up_to_255(const std::vector<Property*>& colours, bool whole) {
   const auto in_range = [](double value) { return value >= 0 && value <= most; };
-  const auto beyond_one = [](const Property* colour) { return largest(*colour) > 1; };
+  const auto beyond = [](double value) {
+    return [value](const Property* colour) { return largest(*colour) > value; };
+  };
   return std::ranges::all_of(colours,
                              [&](const Property* colour) {
                                return std::ranges::all_of(colour->values, in_range);
                              }) &&
-         (std::ranges::all_of(colours, beyond_one) ||
-          (whole && std::ranges::any_of(colours, beyond_one)));
+         ((whole && std::ranges::any_of(colours, beyond(1))) ||
+          (std::ranges::all_of(colours, beyond(1)) &&
+           std::ranges::any_of(colours, beyond(most_light))));
 }
 
 void become_bytes(Property& colour, bool whole) {

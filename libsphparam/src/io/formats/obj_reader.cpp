@@ -116,8 +116,13 @@ class ObjReader {
     read_ignored(std::string(keyword));
   }
 
-  /// Some programs write one a face.
+  /// Some programs write one a face; ZBrush writes the colours of 64 vertices into each of them.
   void read_comment() {
+    constexpr const char* of_zbrush = "#MRGB";
+    if (scanner_.peek_rest().starts_with(of_zbrush)) {
+      ++ignored_[of_zbrush];
+      return;
+    }
     if (!in_header_ && ++later_comments_ > most_later_comments) return;
     file_.comments.push_back(one_line(scanner_.comment()));
   }
