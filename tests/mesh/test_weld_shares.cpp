@@ -66,6 +66,20 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("weld_shares: a vertex that rounding keeps off an edge has the share of its steps too") {
+  TriangleMesh mesh = icosphere(2);
+  const Vertex a = mesh.triangles(0, 0), b = mesh.triangles(0, 1), c = mesh.triangles(0, 2),
+               middle = static_cast<Vertex>(mesh.vertex_count());
+  mesh.positions.conservativeResize(middle + 1, 3);
+  mesh.triangles(0, 1) = middle;
+  mesh.triangles.conservativeResize(mesh.face_count() + 1, 3);
+  mesh.triangles.bottomRows(1) << middle, b, c;
+  for (const double off : {1e-8, 1e-2}) {
+    mesh.positions.row(middle) = (1 + off) * (mesh.position(a) + mesh.position(b)) / 2;
+    CHECK(weld_shares(mesh) == (off < 1e-6 ? Shares{2e-7} : Shares{}));
+  }
+}
+
 TEST_CASE("weld_shares: a tenth of short edges, few single vertices and odd faces change nothing") {
   TriangleMesh mesh = joined(shaken_apart(icosphere(3), 1e-5), octahedron(), {0, 0, 0});
   mesh.triangles.conservativeResize(mesh.face_count() - 1, 3);  // a hole with three vertices

@@ -8,6 +8,7 @@
 #include "mesh/box.h"
 #include "mesh/face_sides.h"
 #include "mesh/index_range.h"
+#include "sphparam/mesh/mesh_repair.h"
 
 // A vertex has a near one where its cell, or one beside that, has another vertex: of cells with an
 // edge of the distance over 2√3 none of these is farther away. Nothing but numbers of vertices in
@@ -113,6 +114,20 @@ double rounding_share(const TriangleMesh& mesh) {
   return found == shares_tried.rend() ? 0 : *found;
 }
 
+/// Whether a vertex of the boundary is so near another one, or an edge.
+bool joins_anything(const TriangleMesh& mesh, double share) {
+  RepairOptions options = RepairOptions::none();
+  options.cracks = true;
+  const auto joined = [&] {
+    long count = 0;
+    for (const RepairAction& action : repair_mesh(mesh, options).actions) count += action.count;
+    return count;
+  };
+  const long without = joined();
+  options.weld_share = share;
+  return joined() > without;
+}
+
 }  // namespace
 
 std::vector<double> weld_shares(const TriangleMesh& mesh) {
@@ -127,7 +142,7 @@ std::vector<double> weld_shares(const TriangleMesh& mesh) {
   if (!shares.empty() || boundary.places.empty()) return shares;
   const double rounding = rounding_share(mesh);
   const bool is_short = rounding > 0 && rounding * much_longer <= boundary.edge;
-  if (is_short && near_ones(boundary.places, rounding) > 0) shares.push_back(rounding);
+  if (is_short && joins_anything(mesh, rounding)) shares.push_back(rounding);
   return shares;
 }
 

@@ -12,7 +12,8 @@ namespace sphparam {
 /// of ten, the smallest first; none: there is no such distance, or some vertex has no place. Ours:
 /// the data says which distances are errors and which are shape, where there is a gap between the
 /// two. Where few vertices are torn apart there is none, as most of a tear's have no other near:
-/// then the rounding of float32 alone, if any two are as near as that. Cost: O(#F log #F).
+/// then the rounding of float32 alone, if any vertex is as near as that to another one, or to an
+/// edge. Cost: O(#F log #F).
 std::vector<double> weld_shares(const TriangleMesh& mesh);
 
 }  // namespace sphparam
