@@ -187,6 +187,8 @@ TEST_CASE("floors: third-party headers stay in their rooms") {
       {"nlohmann/",
        {"libsphparam/src/records/", "libsphparam/src/batch/",
         "libsphparam/src/io/formats/gltf/gltf_json",
+        "libsphparam/src/io/formats/gltf/gltf_authorship",
+        "libsphparam/src/io/attributes/authorship",
         "libsphparam/src/io/formats/gltf/gltf_compression", "libsphparam/src/gltf/gltf_writer",
         "libsphparam/src/survey/survey_record", "libsphparam/src/asset/asset_record"}},
       {"tiny_gltf", {"libsphparam/src/io/formats/gltf/gltf_document"}},

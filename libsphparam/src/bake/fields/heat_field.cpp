@@ -28,30 +28,27 @@ SurfaceField as_heat(SurfaceField data) {
                         .kind = FieldKind::Colour,
                         .about = "colours of " + data.about,
                         .range = data.range};
-  field.range->first += data.origin[0];
-  field.range->second += data.origin[0];
-  const HeatScale scale = scale_for(data.name, *field.range);
-  const double origin = data.origin[0];
+  const HeatScale scale = scale_for(data.name, *data.range);
   if (data.evaluate_runs) {
-    field.evaluate_runs = [scale, origin, numbers_of = std::move(data.evaluate_runs)](
+    field.evaluate_runs = [scale, numbers_of = std::move(data.evaluate_runs)](
                               std::span<const SurfaceRun> runs, float* values) {
       size_t count = 0;
       for (const SurfaceRun& run : runs) count += static_cast<size_t>(run.count);
       std::vector<float> numbers(count);
       numbers_of(runs, numbers.data());
       for (const float number : numbers) {
-        const Rgb colour = to_linear(heat_colour(scale, static_cast<double>(number) + origin));
+        const Rgb colour = to_linear(heat_colour(scale, static_cast<double>(number)));
         values = std::copy_n(colour.data(), 3, values);
       }
     };
     return field;
   }
-  field.evaluate = [scale, origin, numbers_of = std::move(data.evaluate)](
+  field.evaluate = [scale, numbers_of = std::move(data.evaluate)](
                        std::span<const SurfaceSample> samples, float* values) {
     std::vector<float> numbers(samples.size());
     numbers_of(samples, numbers.data());
     for (const float number : numbers) {
-      const Rgb colour = heat_colour(scale, static_cast<double>(number) + origin);
+      const Rgb colour = heat_colour(scale, static_cast<double>(number));
       values = std::copy_n(colour.data(), 3, values);
     }
   };
