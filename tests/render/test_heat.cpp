@@ -97,6 +97,9 @@ TEST_CASE(
   CHECK(numbers(399, area) == dots({"1/8", "1/4", "1/2", "1", "2", "4", "8"}));
   CHECK(numbers(200, area) == dots({"1/8", "1", "8"}));
   CHECK(numbers(200, heat_scale(Heat::Angle)) == dots({"1", "2", "4", "8"}));
+  HeatScale clipped{"x", 0.099972, 0.099978};  // a number that would begin beyond the left edge
+  clipped.below = true;
+  CHECK(numbers(400, clipped) == dots({"< 0.099972", "0.099975", "0.099978"}));
   const HeatScale plain{"x", 0, 0.5}, wide{"x", 0.001234, 0.005678};
   CHECK(numbers(200, plain) == dots({"0", "0.25", "0.5"}));
   CHECK(numbers(160, wide) == dots({"0.00123", "0.00568"}));

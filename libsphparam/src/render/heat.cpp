@@ -115,8 +115,8 @@ void draw_scale(Image& image, const HeatScale& scale, int left, int top, int wid
   for (const Tick& tick : ticks(scale, width, dot)) {
     const int x = left + place_of(scale, tick.value, width);
     fill_column(image, x, top, line + 2 * dot, ink);
-    draw_text(image, tick.label, x - text_width(tick.label, dot) / 2, top + line + 3 * dot, dot,
-              ink);
+    const int wide = text_width(tick.label, dot), most = std::max(0, image.width - wide);
+    draw_text(image, tick.label, std::clamp(x - wide / 2, 0, most), top + line + 3 * dot, dot, ink);
   }
 }
 
