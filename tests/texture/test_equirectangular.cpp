@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "image/image_codec.h"
+#include "sphparam/io/paths.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/texture/equirectangular_image.h"
 #include "support/direction_image.h"
@@ -128,6 +129,23 @@ TEST_CASE("equirectangular: numbers that are measured are no colours, light may 
   CHECK_THROWS_AS(read_equirectangular(tiff), ImageError);
   std::filesystem::remove(path);
   std::filesystem::remove(tiff);
+}
+
+TEST_CASE("equirectangular: a colour profile that is not sRGB's is told") {
+  const std::string path = std::filesystem::temp_directory_path() /
+                           ("sphparam_profile_" + std::to_string(getpid()) + ".jpg");
+  const std::vector<char> jpeg = encode_image(Image(8, 4, 3), ImageFormat::Jpeg);
+  std::string bytes(jpeg.begin(), jpeg.end());
+  write_file(path, bytes);
+  CHECK(read_equirectangular(path).warning().empty());
+  const std::string profile = std::string("ICC_PROFILE\0\x01\x01", 14) + std::string(200, 'x');
+  bytes.insert(2, "\xff\xe2" + std::string{'\0', static_cast<char>(profile.size() + 2)} + profile);
+  write_file(path, bytes);
+  CHECK(read_equirectangular(path).warning() ==
+        display_name(path) +
+            ": its colours are taken as sRGB; its colour profile, without a name, "
+            "is not heeded (convert the image to sRGB)");
+  std::filesystem::remove(path);
 }
 
 TEST_CASE("equirectangular: an image that is not twice as wide as high is told, but for a texel") {

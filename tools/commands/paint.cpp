@@ -65,8 +65,9 @@ void require_sensible(const PaintArguments& arguments) {
 EquirectangularImage read_picture(const PaintArguments& arguments, Console& console) try {
   EquirectangularImage image =
       read_equirectangular(arguments.image, arguments.convention, arguments.threads);
-  const std::string warning = warning_of_shape(arguments.image, image.width(), image.height());
-  if (!warning.empty()) console.warning(warning);
+  for (const std::string& warning :
+       {warning_of_shape(arguments.image, image.width(), image.height()), image.warning()})
+    if (!warning.empty()) console.warning(warning);
   return image;
 } catch (const ImageOfOtherConvention& error) {
   throw UsageMistake(std::string("--convention: ") + error.what());

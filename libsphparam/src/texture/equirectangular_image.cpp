@@ -10,6 +10,7 @@
 #include "sphparam/io/paths.h"
 #include "sphparam/sphere/spherical_coordinates.h"
 #include "texture/baked_texts.h"
+#include "texture/read_textures.h"
 #include "texture/texture_pyramid.h"
 
 namespace sphparam {
@@ -122,7 +123,8 @@ EquirectangularImage read_equirectangular(const std::string& path, Convention co
                                  ": convention " + name + " reads it as it is");
   }
   require_colours(path, image, linear);
-  return {std::make_shared<const TexturePyramid>(image, linear, threads), convention};
+  return {std::make_shared<const TexturePyramid>(image, linear, threads), convention,
+          linear ? "" : profile_warning(display_name(path), texts)};
 }
 
 }  // namespace sphparam

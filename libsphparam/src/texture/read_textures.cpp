@@ -86,14 +86,6 @@ Image image_of(const MaterialTexture& texture, const std::string& what) {
   return texture.image.empty() ? Image() : decode_image(bytes_of(texture, what), what);
 }
 
-/// Colours are taken as sRGB, whatever profile an image has. Empty: it has none, or that.
-std::string profile_warning(const std::string& image, const ImageTexts& texts) {
-  const auto found = std::ranges::find(texts, other_profile_text, &ImageTexts::value_type::first);
-  if (found == texts.end()) return "";
-  return image + ": its colours are taken as sRGB; its colour profile, " + found->second +
-         ", is not heeded (convert the image to sRGB)";
-}
-
 /// Throws ImageError.
 DecodedTexture decode(const MaterialTexture& colour, const std::string& what, TexelKind kind,
                       int threads) {
@@ -143,6 +135,13 @@ std::string why_unusable(const MaterialTexture& texture) try {
 } catch (const std::runtime_error& error) {
   const std::string why = error.what();
   return why.substr(0, why.find('\n'));
+}
+
+std::string profile_warning(const std::string& image, const ImageTexts& texts) {
+  const auto found = std::ranges::find(texts, other_profile_text, &ImageTexts::value_type::first);
+  if (found == texts.end()) return "";
+  return image + ": its colours are taken as sRGB; its colour profile, " + found->second +
+         ", is not heeded (convert the image to sRGB)";
 }
 
 std::vector<std::string> warnings_of(const std::vector<SourceTexture>& textures) {

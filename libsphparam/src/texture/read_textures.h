@@ -6,6 +6,7 @@
 #include <tuple>
 #include <vector>
 
+#include "image/image_codec.h"
 #include "sphparam/io/mesh_file.h"
 #include "texture/source_texture.h"
 
@@ -19,6 +20,9 @@ SourceTexture read_texture(const std::string& path, TextureWrap wrap, int thread
 /// materials use is decoded once.
 /// Throws: ImageError that names material and image, for one that is missing, broken or unusable.
 std::vector<SourceTexture> read_textures(const MeshFile& file, int threads);
+
+/// Colours are taken as sRGB, whatever profile an image has. Empty: it has none, or that.
+std::string profile_warning(const std::string& image, const ImageTexts& texts);
 
 /// What is to be told of them, each line once.
 std::vector<std::string> warnings_of(const std::vector<SourceTexture>& textures);

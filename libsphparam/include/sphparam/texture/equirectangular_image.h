@@ -25,8 +25,11 @@ class TexturePyramid;
 class EquirectangularImage {
  public:
   /// Shares the pyramid.
-  EquirectangularImage(std::shared_ptr<const TexturePyramid> pyramid, Convention convention)
-      : pyramid_(std::move(pyramid)), convention_(info_of(convention)) {}
+  EquirectangularImage(std::shared_ptr<const TexturePyramid> pyramid, Convention convention,
+                       std::string warning = {})
+      : pyramid_(std::move(pyramid)),
+        convention_(info_of(convention)),
+        warning_(std::move(warning)) {}
   /// The pyramid outlives it.
   EquirectangularImage(const TexturePyramid& pyramid, Convention convention)
       : pyramid_(std::shared_ptr<void>(), &pyramid), convention_(info_of(convention)) {}
@@ -38,10 +41,13 @@ class EquirectangularImage {
   int width() const;   // texels
   int height() const;  // half the width, if it is of the whole sphere
   bool has_alpha() const;
+  /// What its file has that is not heeded, a colour profile; empty: nothing.
+  const std::string& warning() const { return warning_; }
 
  private:
   std::shared_ptr<const TexturePyramid> pyramid_;
   ConventionInfo convention_;
+  std::string warning_;
 };
 
 /// The warning for people that an image is not twice as wide as high, as one of the whole sphere
