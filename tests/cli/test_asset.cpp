@@ -22,7 +22,11 @@ TEST_CASE("asset: `sphparam FILE` fills a folder beside, all files together") {
   CHECK_THAT(ended.err, Contains("One closed surface as it is, certified one-to-one"));
   for (const char* name : {"ball.glb", "ball.sph.ply", "ball_ao.png", "ball.html"})
     CHECK(fs::exists(fs::path(out) / name));
-  CHECK(nlohmann::json::parse(bytes_of(json))["surface"] == "itself");
+  const nlohmann::json report = nlohmann::json::parse(bytes_of(json));
+  CHECK(report["surface"] == "itself");
+  CHECK_THAT(ended.err,
+             Contains("\n  in the .glb: " + report["chart"]["triangles"].dump() + " triangles, " +
+                      report["chart"]["vertices"].dump() + " vertices\n"));
   CHECK(sphparam_program({"verify", out + "/ball.sph.ply"}).code == 0);
   CHECK(sphparam_program({mesh, "-o", out, "--size", "64", "--no-page"}).code == 0);  // once more
 }
@@ -190,7 +194,8 @@ TEST_CASE("asset: what cannot be done is said, and leaves no folder") {
   CHECK(file.code == 3);
   CHECK(bytes_of(out) == "a file");
   CHECK_THAT(sphparam_program({"asset", mesh, "-o", folder / "no/such"}).err,
-             Contains("such: the folder that it is to be made in is not there"));
+             Contains("such: the folder that it is to be made in is not there: mkdir -p " +
+                      (folder / "no") + " makes it"));
   CHECK_THAT(asset({"--keep", "2"}).err, Contains("--keep: expected a number from 0 to 1\n"));
   CHECK(sphparam_program({"nonsense"}).code == 2);
   CHECK(sphparam_program({"asset", mesh, "-o", folder / "x.glb"}).code == 2);

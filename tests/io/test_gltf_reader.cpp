@@ -1353,8 +1353,7 @@ TEST_CASE("gltf_reader: who made an asset stays with it, other metadata is told 
   CHECK(file.comments ==
         std::vector<std::string>{
             "copyright (c) Me CC-BY",
-            R"(asset extras {"author":"Mé","license":"CC-BY-4.0","n":[1,2.5,true]})",
-            "up axis y"});
+            R"(asset extras {"author":"Mé","license":"CC-BY-4.0","n":[1,2.5,true]})", "up axis y"});
   CHECK(sphparam::noted_authorship(file).copyright == "(c) Me CC-BY");
   CHECK(sphparam::losses_among(file.notes) ==
         std::vector<std::string>{
@@ -1386,4 +1385,19 @@ TEST_CASE("gltf_reader: meshes that nodes scale to nothing are left out and told
                  "node 0: its transform is singular"));
   CHECK(contains(complaint(with(R"("mesh":0)", R"("mesh":0,"scale":[1e200,1e200,1e200])")),
                  "node 0: its transform is not finite"));
+}
+
+TEST_CASE("gltf_reader: of an image that is not read its kind is named") {
+  for (const auto& [extension, kind] : {std::pair("KHR_texture_basisu", "KTX2"),
+                                        {"EXT_texture_avif", "AVIF"},
+                                        {"MSFT_texture_dds", "DDS"}}) {
+    Gltf gltf = tetrahedron_gltf();
+    gltf.meshes = replaced(gltf.meshes, R"("indices":1)", R"("indices":1,"material":0)");
+    gltf.rest += R"(,"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],)"
+                 R"("images":[{"uri":"a"}],"textures":[{"extensions":{")" +
+                 std::string(extension) + R"(":{"source":0}}}])";
+    CHECK(read(gltf.bytes()).base_colours.at(0).problem ==
+          std::string("its image is ") + kind +
+              ", which is not read: PNG, JPEG and WebP are, as which it can be written anew");
+  }
 }

@@ -112,6 +112,9 @@ class Exporter {
   /// "  statue.glb 3.4 MB, 62 % of it images", and what became of these.
   Words sizes() const {
     Words told = {"  " + words_of(record_.outputs, image_bytes_)};
+    if (!record_.charts.empty())
+      told.push_back("  cut as its chart: " + counted(record_.charts.front().triangles, "triangle") +
+                     ", " + counted(record_.charts.front().vertices, "vertex", "vertices"));
     if (options_.look.textures != TextureFormat::Given)
       told.push_back("  " + words_of(record_.textures));
     for (const std::string& line : level_lines(record_)) told.push_back("  " + line);
