@@ -3,6 +3,7 @@
 
 #include "image/image_codec.h"
 #include "program.h"
+#include "sphparam/io/creases.h"
 #include "sphparam/io/mesh_writer.h"
 #include "support/creased.h"
 #include "support/test_meshes.h"
@@ -16,19 +17,27 @@ namespace {
 
 const std::vector<std::string> sides = {"1,0.5,0.6", "-1,0.7,0.3", "0.2,-0.6,1", "-0.3,-0.9,-1"};
 
-/// A can with a smooth side and hard rims, no two axes alike.
-MeshFile can(bool creased) {
+MeshFile can_without_normals() {
   MeshFile file;
   file.mesh = tube(5, 14);
   file.mesh.positions.col(0) *= 1.4;
+  return file;
+}
+
+/// A can with a smooth side and hard rims, no two axes alike.
+MeshFile can(bool creased) {
+  MeshFile file = can_without_normals();
   if (creased) file.corner_normals = creased_normals(file.mesh, 40);
   return file;
 }
 
-Image picture(const std::string& path, const std::string& from) {
-  const Ended ended =
-      sphparam_program({"render", path, "-o", "-", "--view", "mesh", "--colour", "plain", "--up",
-                        "y", "--size", "120", "--from", from, "-q"});
+Image picture(const std::string& path, const std::string& from,
+              const std::vector<std::string>& more = {}) {
+  std::vector<std::string> command = {"render", path,       "-o",     "-",    "--view",
+                                      "mesh",   "--colour", "plain",  "--up", "y",
+                                      "--size", "120",      "--from", from,   "-q"};
+  command.insert(command.end(), more.begin(), more.end());
+  const Ended ended = sphparam_program(command);
   INFO(path << ": " << ended.err);
   REQUIRE(ended.code == 0);
   return decode_image({ended.out.begin(), ended.out.end()}, "picture");
@@ -89,6 +98,51 @@ TEST_CASE("hard edges: map, repair and every export look as the mesh does") {
     CHECK(likeness(can.path, made) > 45);
   }
   CHECK(likeness(can.path, exported("c.glb", {"--compress"})) > 38);  // normals to a degree
+}
+
+TEST_CASE("hard edges: --crease makes them where a mesh has no normals, also of a written map") {
+  const Can can;  // turns by 35° at most about its side, by 90° at the rims
+  const std::string map = can.make({"map", can.smooth}, "smooth.sph.ply");
+  MeshFile creased = can_without_normals();
+  REQUIRE(add_creases(creased, 40));
+  const std::string wanted = can.folder / "wanted.obj";
+  write_mesh(wanted, creased);
+  REQUIRE(likeness(wanted, can.smooth) < 30);
+  for (const std::string& mesh : {can.smooth, map}) {
+    for (const char* name : {"c.glb", "c.obj", "c.ply"}) {
+      const std::string made =
+          can.make({"export", mesh, "--crease", "40", "--up", "y", "--image-size", "64"}, name);
+      INFO(mesh << " " << name);
+      CHECK(likeness(wanted, made) > 45);
+    }
+    CHECK(picture(mesh, sides[0], {"--crease", "40"}).pixels == picture(wanted, sides[0]).pixels);
+  }
+  const std::string folder =
+      can.make({"asset", can.smooth, "--crease", "40", "--up", "y", "--size", "128", "--no-page"},
+               "creased");
+  CHECK(likeness(wanted, folder + "/smooth.glb") > 45);
+}
+
+TEST_CASE("hard edges: --crease leaves normals and what is smooth as they are") {
+  const Can can;
+  const auto baked = [&](const std::string& mesh, std::vector<std::string> more) {
+    more.insert(more.begin(), {"bake", mesh, "--map", "normal-object", "--size", "64", "--depth",
+                               "float", "-o", can.folder / "n.tif"});
+    const Ended ended = sphparam_program(more);
+    INFO(ended.err);
+    REQUIRE(ended.code == 0);
+    return std::pair(bytes_of(can.folder / "n.tif"), ended.err);
+  };
+  const auto [own, nothing_told] = baked(can.path, {});
+  const auto [kept, told] = baked(can.path, {"--crease", "5"});
+  CHECK(kept == own);
+  CHECK_THAT(told, Catch::Contains("  can.obj: has normals of its own, which say what is hard: "
+                                   "--crease is for others\n"));
+  CHECK_THAT(nothing_told, !Catch::Contains("--crease"));
+  CHECK(baked(can.smooth, {"--crease", "100"}).first == baked(can.smooth, {}).first);
+  CHECK(baked(can.smooth, {"--crease", "40"}).first != baked(can.smooth, {}).first);
+  CHECK_THAT(baked(can.smooth, {"--crease", "40", "-v"}).second,
+             Catch::Contains("smooth.obj: 28 edges are hard"));
 }
 
 TEST_CASE("hard edges: the whole asset, and a fine grid, look as the mesh does") {

@@ -79,7 +79,8 @@ void declare_inputs(Declaration& command, BakeArguments& arguments) {
             "Another mesh on the same sphere that the images are for: its chart, its frame of "
             "normals, its surface as base of heights; one with a map of its own is refused")
       .text("--from", arguments.from, "FILE",
-            "Another surface about where the mesh is, any triangles: it is baked on the mesh");
+            "Another surface about where the mesh is, any triangles: it is baked on the mesh")
+      .crease(arguments.crease);
 }
 
 void declare_body(Declaration& command, BakeArguments& arguments) {

@@ -21,6 +21,7 @@ struct BakeArguments : CommonArguments {
   std::string body;                               // a name, radii or WKT; empty: none
   bool all_components = false;                    // of the files that `map` made of parts
   RepairArguments repair;                         // of the mesh
+  double crease = -1;                             // degrees; below 0: none
   double unit = 1;                                // metres that the mesh's unit has
   std::function<bool(const std::string&)> given;  // was this option on the command line?
   BakeSettings settings;  // what has an option; names, target, progress are the command's

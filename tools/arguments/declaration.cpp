@@ -158,6 +158,12 @@ Declaration& Declaration::convention(Convention& convention) {
                 "Where longitude goes in the image (default: sphparam)");
 }
 
+Declaration& Declaration::crease(double& degrees) {
+  return number(
+      "--crease", degrees, "DEGREES", {0, 180},
+      "Where the mesh has no normals, edges that turn by more are hard (default: none is)");
+}
+
 Declaration& Declaration::refine_poles(int& wedges, const std::string& about) {
   return number("--refine-poles", wedges, "N", {1, 1024}, about);
 }

@@ -78,6 +78,8 @@ class Declaration {
   /// --up and --front.
   Declaration& up(Up& up);
   Declaration& convention(Convention& convention);
+  /// --crease: below 0 where none is wanted.
+  Declaration& crease(double& degrees);
   Declaration& refine_poles(int& wedges, const std::string& about);
   /// --json: what is in it.
   Declaration& json(CommonArguments& arguments, const std::string& what = "A report");

@@ -75,6 +75,7 @@ void declare_export_options(Declaration& command, ExportArguments& arguments) {
               ".glb, .gltf, .obj or .ply; - for a .glb on standard output")
       .flag("--all-components", arguments.all_components,
             "Of MESH_0001 and so on, as `map --all-components` writes them; files are so numbered")
+      .crease(arguments.crease)
       .json(arguments);
   declare_look(command, arguments.exported.look);
   declare_chart(command, arguments.exported);

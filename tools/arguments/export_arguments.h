@@ -18,6 +18,7 @@ struct ExportArguments : CommonArguments {
   bool all_components = false;  // of the files that `map` made of parts
   bool embedded = false, compress = false;
   int lods = 0;
+  double crease = -1;  // degrees; below 0: none
   LodStyle lod_style = LodStyle::Files;
   RepairArguments repair;
 };

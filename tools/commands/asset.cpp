@@ -8,6 +8,7 @@
 #include "arguments/limits.h"
 #include "arguments/texture_arguments.h"
 #include "commands/command.h"
+#include "commands/sources.h"
 #include "console/places.h"
 #include "console/session.h"
 #include "io/shell_word.h"
@@ -45,6 +46,7 @@ constexpr char summary[] =
 
 struct AssetArguments : CommonArguments {
   std::string input, output;
+  double crease = -1;  // degrees; below 0: none
   RemakeOptions options;
 };
 
@@ -158,8 +160,9 @@ int run_asset(AssetArguments& arguments) {
   const Folder& folder = place.emplace(arguments);
   require_other_folder(folder.path(), arguments.input);
   check_places({{"--json", arguments.json}});
-  const MeshSource asset = read_asset(arguments.input);
+  MeshSource asset = read_asset(arguments.input);
   tell_losses(asset, session.console);
+  crease(asset.file, arguments.input, arguments.crease, session);
   const RemadeAsset made = remade(asset, folder.path(), arguments, session);
   session.add_report([&] { return to_json(asset, made); });
   session.publish();
@@ -186,7 +189,8 @@ void declare_options(Declaration& command, AssetArguments& arguments) {
               "Of the area, that a repair must keep; else it is wrapped")
       .flag("--compress", options.compress, "A smaller .glb: EXT_meshopt_compression");
   declare_textures(command, options.textures, options.webp_quality);
-  command.up(options.up)
+  command.crease(arguments.crease)
+      .up(options.up)
       .flag_off("--no-page", options.page, "Without the page")
       .json(arguments)
       .threads(arguments)

@@ -71,13 +71,18 @@ MeshFile read_from(const BakeArguments& arguments, Session& session) {
   tell_losses_of_reading(arguments.from, surface.notes, session.console);
   keep_companions(surface);
   attach_data_files(surface, arguments.from, arguments.data, MissingValues::LeftOut, session);
+  crease(surface, arguments.from, arguments.crease, session);
   return surface;
 }
 
-/// The mesh with its map; numbers are of the surface that is baked.
+/// The mesh with its map; numbers and creases are of the surface that is baked.
 MappedMesh read_mesh(const BakeArguments& arguments, Session& session) {
-  return read_mapped(arguments.input, arguments.sphere, session, arguments.repair, 1,
-                     arguments.from.empty() ? arguments.data : Words{});
+  session.hold_signals();
+  const bool is_baked = arguments.from.empty();
+  MeshSource source =
+      read_mended(arguments.input, arguments.repair, session, is_baked ? arguments.data : Words{});
+  if (is_baked) crease(source.file, arguments.input, arguments.crease, session);
+  return map_source(std::move(source), arguments.sphere, session, arguments.repair);
 }
 
 BakeSettings settings_of(const BakeArguments& arguments, const MappedMesh& source,

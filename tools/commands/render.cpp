@@ -47,6 +47,7 @@ struct RenderArguments : CommonArguments {
   std::string from;     // empty: in front, to the right, above
   std::string range;    // empty: as the numbers are
   Words data;           // numbers a vertex in files of their own
+  double crease = -1;   // degrees; below 0: none
   DrawingOptions drawing = {};
   RepairArguments repair;
 };
@@ -149,6 +150,7 @@ int run_render(RenderArguments& arguments) {
   Session session(arguments);
   session.console.progress("picture", 0);
   DrawnMesh mesh = read_drawn(arguments, session);
+  crease(mesh.file, arguments.input, arguments.crease, session);
   session.files.add(arguments.output, drawn(mesh, arguments, session));
   session.publish();
   session.console.say(display_name(arguments.input) + " → " + output_name(arguments.output));
@@ -188,7 +190,8 @@ void declare_look(Declaration& command, RenderArguments& arguments) {
 void declare_options(Declaration& command, RenderArguments& arguments) {
   command.input("FILE", arguments.input, "A map or a mesh; - for standard input")
       .output(arguments.output, "PNG", "The picture; - for standard output")
-      .sphere(arguments.sphere);
+      .sphere(arguments.sphere)
+      .crease(arguments.crease);
   declare_look(command, arguments);
   command
       .text("--from", arguments.from, "X,Y,Z", "Where the eye is (default: 1,-0.6,0.45 with z up)")

@@ -10,6 +10,7 @@
 #include "commands/sources.h"
 #include "console/places.h"
 #include "io/inspected_source.h"
+#include "number_text.h"
 #include "records/comparison_record.h"
 #include "reports/told_losses.h"
 #include "showcase/report_page.h"
@@ -47,6 +48,7 @@ bool is_of_other_kind(const std::string& path) {
 struct ReportArguments : CommonArguments {
   Words inputs, data;
   std::string sphere, texture, output;
+  double crease = -1;  // degrees; below 0: none
   PageOptions options;
   RepairArguments repair;
 };
@@ -74,6 +76,7 @@ std::string command_line(const ReportArguments& arguments) {
   add(" --sphere", arguments.sphere);
   for (const std::string& file : split_all(arguments.data)) add(" --data", file);
   add(" --texture", arguments.texture);
+  if (arguments.crease >= 0) line += " --crease " + shortest(arguments.crease);
   add(" -o", arguments.output);
   const auto& [up, front] = arguments.options.up;
   if (up) line += " --up " + name_of_direction(*up);
@@ -138,8 +141,9 @@ int run_report(ReportArguments& arguments) {
   require_sense(arguments);
   require_there(arguments.inputs);
   require_there({arguments.sphere, arguments.texture});
-  const MeshSource source =
+  MeshSource source =
       read_mended(arguments.inputs.front(), arguments.repair, session, arguments.data);
+  crease(source.file, arguments.inputs.front(), arguments.crease, session);
   require_mappable(source);
   require_area(source);
   session.hold_signals();
@@ -161,6 +165,7 @@ void declare_options(Declaration& command, ReportArguments& arguments) {
       .required()
       .output(arguments.output, "PAGE.html", "The page; - for standard output")
       .sphere(arguments.sphere)
+      .crease(arguments.crease)
       .data(arguments.data)
       .text("--texture", arguments.texture, "IMAGE", "The texture of the mesh")
       .up(arguments.options.up)

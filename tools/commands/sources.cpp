@@ -9,6 +9,7 @@
 #include "number_text.h"
 #include "reports/told_losses.h"
 #include "reports/told_repairs.h"
+#include "sphparam/io/creases.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/planetocentric.h"
 #include "sphparam/io/sphere_file.h"
@@ -146,6 +147,15 @@ void tell_longitudes(const MappedMesh& mapped, Convention convention, bool named
   const Vector3 centre = body_centre(planetocentric(mapped.provenance()), given_centre);
   const std::string off = longitudes_off(mapped, centre, !named_as_body, session.threads());
   if (!off.empty()) session.console.say("  " + off);
+}
+
+void crease(MeshFile& file, const std::string& path, double degrees, Session& session) {
+  if (degrees < 0) return;
+  const std::optional<long> hard = add_creases(file, degrees);
+  const std::string name = "  " + display_name(path) + ": ";
+  if (hard) return session.console.detail(name + counted(*hard, "edge is hard", "edges are hard"));
+  session.console.say(name +
+                      "has normals of its own, which say what is hard: --crease is for others");
 }
 
 std::shared_ptr<const MeshTextures> read_shown_textures(const MeshFile& file,

@@ -53,6 +53,10 @@ std::string longitudes_off(const MappedMesh& mapped, const Vector3& centre, bool
 void tell_longitudes(const MappedMesh& mapped, Convention convention, bool named_as_body,
                      const std::optional<Vector3>& given_centre, Session& session);
 
+/// Hard edges where the faces turn by more than so many degrees (`add_creases`), as --crease wants
+/// it, unless below 0: nothing is wanted then. That a mesh has normals of its own is told.
+void crease(MeshFile& file, const std::string& path, double degrees, Session& session);
+
 /// `shown_textures` with --texture IMAGE, if it is not empty; what stands against those of the file
 /// is told. `path`: of the mesh. Throws: UsageMistake where there is no place for the image.
 std::shared_ptr<const MeshTextures> read_shown_textures(const MeshFile& file,
