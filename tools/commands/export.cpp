@@ -254,6 +254,7 @@ ExportArguments of_part(ExportArguments arguments, int part) {
 MappedMesh read_exported(const ExportArguments& arguments, Session& session) {
   session.hold_signals();
   MeshSource source = read_mended(arguments.input, arguments.repair, session);
+  crease(source.file, arguments.input, arguments.crease, session);
   if (arguments.exported.source_uv && !has_texcoords(source.file))
     throw UsageMistake("--source-uv: the mesh has no texture coordinates of its own");
   return map_source(std::move(source), arguments.sphere, session, arguments.repair);
