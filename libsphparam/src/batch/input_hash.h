@@ -10,8 +10,8 @@ struct InputHash {
   bool alone = true;  // it names no others: its own stamp tells whether anything was touched
 };
 
-/// Buffers and images of glTF, libraries of OBJ and their images, images of COLLADA and FBX count;
-/// what is named and is not there does as soon as it is. Meshes are not read for it. Throws:
+/// Buffers and images of glTF, libraries of OBJ and their images, images of PLY, COLLADA and FBX
+/// count; what is named and is not there does as soon as it is. Meshes are not read for it. Throws:
 /// ReadError where the file itself cannot be read. Cost: reading all these files once.
 InputHash hash_of_input(const std::string& path);
 

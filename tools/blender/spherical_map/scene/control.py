@@ -72,8 +72,8 @@ def make(control: Control, edges: int, levels: int, beside: bpy.types.Object, co
 
 
 def displace(obj: bpy.types.Object, image: bpy.types.Image, scale: float = 1.0, midlevel: float = 0.0) -> None:
-    """Displace along normals by (value − midlevel) · scale, looked up by the UV map of the grid as it is: values below 0
-    are kept (Blender cuts them off unless told), texels are not blurred, no level of detail is chosen."""
+    """Displace along normals by (value − midlevel) · scale, looked up by the UV map of the grid as it is: values below
+    0 are kept (Blender cuts them off unless told), texels are not blurred, no level of detail is chosen."""
     texture = bpy.data.textures.new(image.name, "IMAGE")
     texture.image = image
     texture.use_clamp = False
