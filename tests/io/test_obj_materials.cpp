@@ -278,3 +278,15 @@ TEST_CASE("obj_materials: quotes about a name are none of it, where no file is c
   folder.write("'w.png'", "");
   CHECK(wood("'w.png'") == "'w.png'");
 }
+
+TEST_CASE("obj_materials: (null) is a material where a library has it, else none") {
+  const ObjFolder folder;
+  folder.write("n.obj", "mtllib n.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl (null)\nf 1 2 3\n");
+  folder.write("n.mtl", "newmtl (null)\nKd 1 0.25 0\n");
+  const MeshFile named = read_mesh((folder.path() / "n.obj").string());
+  CHECK(named.materials == std::vector<std::string>{"(null)"});
+  REQUIRE(named.base_colours.size() == 1);
+  CHECK(named.base_colours[0].factor == std::array<double, 4>{1, 0.25, 0, 1});
+  folder.write("n.mtl", "newmtl wood\nKd 1 0.25 0\n");
+  CHECK(read_mesh((folder.path() / "n.obj").string()).materials.empty());
+}

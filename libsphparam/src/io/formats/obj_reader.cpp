@@ -221,9 +221,19 @@ class ObjReader {
     file_.notes.push_back("faces count vertices from 0");
   }
 
+  /// Programs that name a material so which has no name say in its library what it is.
+  bool is_none(const std::string& name) {
+    if (name != obj_no_material) return false;
+    if (!null_is_none_)
+      null_is_none_ =
+          !folder_ || read_obj_materials({name}, names_["mtllib"].in_order, *folder_, options_)
+                          .base_colours.empty();
+    return *null_is_none_;
+  }
+
   void read_material() {
     const std::string name = one_line(scanner_.rest());
-    if (name == obj_no_material) {
+    if (is_none(name)) {
       material_ = no_index;
       return;
     }
@@ -466,6 +476,7 @@ class ObjReader {
   const ReadOptions& options_;
   bool in_header_ = true;  // only comments so far
   long later_comments_ = 0;
+  std::optional<bool> null_is_none_;  // of "(null)", once it was met
 
   IndexedKind vertices_{"vertex", 0, {}}, texcoords_{"texture coordinate", 0, {}},
       normals_{"normal", 0, {}};
