@@ -50,13 +50,47 @@ TEST_CASE(
     "own_paint: an image, else colours of vertices, else those of materials, else directions") {
   MeshFile file = two_materials();
   CHECK(std::holds_alternative<VertexPaint>(own_paint(file)));
-  CHECK(std::get<VertexPaint>(own_paint(file)).colours == direction_paint(file.mesh).colours);
+  CHECK(std::get<VertexPaint>(own_paint(file)).colours == direction_paint(file).colours);
   const MeshTextures plain{.of_materials = {coloured(1, 0, 0), coloured(0, 1, 0)}};
   CHECK(std::get<TexturePaint>(own_paint(file, plain)).texture_of[1] == 1);
   add_colours(file, ScalarType::Uint8, 51);
   CHECK(std::get<VertexPaint>(own_paint(file, plain)).colours[3] == Rgb::Constant(0.2F));
   const MeshTextures painted{.of_materials = {coloured(1, 0, 0), with_image()}};
   CHECK(std::holds_alternative<TexturePaint>(own_paint(file, painted)));
+}
+
+TEST_CASE(
+    "own_paint: directions have hard edges where normals of corners say so, also on the sphere") {
+  MeshFile file;
+  file.mesh = tests::octahedron();
+  CHECK(direction_paint(file).of_corners.empty());
+  file.corner_normals = CornerNormals(24, 3);
+  for (Face f = 0; f < 8; ++f)
+    for (int k = 0; k < 3; ++k)
+      file.corner_normals->row(3 * f + k) = file.mesh.position(file.mesh.triangles(f, 0)) +
+                                            file.mesh.position(file.mesh.triangles(f, 1)) +
+                                            file.mesh.position(file.mesh.triangles(f, 2));
+  const VertexPaint paint = direction_paint(file);
+  REQUIRE(paint.of_corners.size() == 24);
+  const auto colour_of = [&](Eigen::Index corner) -> Rgb {
+    return (0.6 + 0.35 * file.corner_normals->row(corner).normalized().array())
+        .cast<float>()
+        .matrix()
+        .transpose();
+  };
+  for (Eigen::Index corner = 0; corner < 24; ++corner)
+    CHECK((paint.of_corners[static_cast<size_t>(corner)] - colour_of(corner)).norm() < 1e-6F);
+  const RenderObject sphere = on_sphere({.mesh = file.mesh, .paint = paint}, file.mesh.positions);
+  const auto& refined = std::get<VertexPaint>(sphere.paint).of_corners;
+  REQUIRE(std::ssize(refined) == sphere.mesh.triangles.size());
+  for (Eigen::Index corner = 0; corner < sphere.mesh.triangles.size(); ++corner) {
+    Vector3 middle = Vector3::Zero();  // in whose octant a piece lies
+    for (int k = 0; k < 3; ++k)
+      middle += sphere.mesh.position(sphere.mesh.triangles(corner / 3, k));
+    const Vector3 normal = middle.cwiseSign().normalized();
+    const Rgb wanted = (0.6 + 0.35 * normal.array()).cast<float>().matrix();
+    CHECK((refined[static_cast<size_t>(corner)] - wanted).norm() < 1e-6F);
+  }
 }
 
 TEST_CASE("own_paint: colours of every type of number are the same colours") {

@@ -132,6 +132,19 @@ class Refinement {
   std::unordered_map<std::uint64_t, int> middles_;
 };
 
+/// Three of each piece.
+std::vector<Rgb> refined_corners(const std::vector<Rgb>& colours, const Refinement& refinement) {
+  std::vector<Rgb> result;
+  if (colours.empty()) return result;
+  for (const Piece& piece : refinement.pieces()) {
+    const Rgb* const whole = &colours[3 * static_cast<size_t>(piece.source)];
+    for (int k = 0; k < 3; ++k)
+      result.emplace_back(piece.weights(k, 0) * whole[0] + piece.weights(k, 1) * whole[1] +
+                          piece.weights(k, 2) * whole[2]);
+  }
+  return result;
+}
+
 FacePaint refined(const FacePaint& paint, const Refinement& refinement) {
   FacePaint result;
   for (const Piece& piece : refinement.pieces()) {
@@ -159,7 +172,10 @@ TexturePaint refined(const TexturePaint& paint, const Refinement& refinement) {
 }
 
 Paint refined_paint(Paint paint, const Refinement& refinement, const Points& points) {
-  if (auto* vertices = std::get_if<VertexPaint>(&paint)) refinement.extend(vertices->colours);
+  if (auto* vertices = std::get_if<VertexPaint>(&paint)) {
+    refinement.extend(vertices->colours);
+    vertices->of_corners = refined_corners(vertices->of_corners, refinement);
+  }
   if (auto* checker = std::get_if<CheckerPaint>(&paint)) checker->rays = points;
   if (const auto* faces = std::get_if<FacePaint>(&paint)) return refined(*faces, refinement);
   if (const auto* texture = std::get_if<TexturePaint>(&paint)) return refined(*texture, refinement);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "io/attributes/appearance.h"
+#include "io/attributes/shading_normals.h"
 #include "mesh/vertex_normals.h"
 
 namespace sphparam {
@@ -32,21 +33,27 @@ VertexPaint colour_paint(const Points& colours) {
   return paint;
 }
 
+std::vector<Rgb> pastels(const Points& normals) {
+  std::vector<Rgb> colours;
+  for (const auto& normal : normals.rowwise())
+    colours.push_back((0.6 + 0.35 * normal.array()).cast<float>().matrix().transpose());
+  return colours;
+}
+
 }  // namespace
 
 Paint own_paint(const MeshFile& file, const MeshTextures& textures) {
   if (any_image(textures)) return texture_paint(file, textures);
   if (const auto colours = vertex_colours(file)) return colour_paint(*colours);
   if (!textures.of_materials.empty()) return texture_paint(file, textures);
-  return direction_paint(file.mesh);
+  return direction_paint(file);
 }
 
-VertexPaint direction_paint(const TriangleMesh& mesh) {
-  VertexPaint paint;
-  const Points normals = vertex_normals(mesh);  // named: it must outlive the loop
-  for (const auto& normal : normals.rowwise()) {
-    paint.colours.push_back((0.6 + 0.35 * normal.array()).cast<float>().matrix().transpose());
-  }
+VertexPaint direction_paint(const MeshFile& file) {
+  const Points normals = vertex_normals(file.mesh);
+  VertexPaint paint{.colours = pastels(normals)};
+  if (const auto corners = corner_shading_normals(file, normals))
+    paint.of_corners = pastels(*corners);
   return paint;
 }
 

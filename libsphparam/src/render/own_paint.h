@@ -12,7 +12,7 @@ namespace sphparam {
 Paint own_paint(const MeshFile& file, const MeshTextures& textures = {});
 
 /// Each direction of the surface in a pastel colour of its own: features stay recognisable wherever
-/// they are mapped to.
-VertexPaint direction_paint(const TriangleMesh& mesh);
+/// they are mapped to. Where the file has normals at corners, edges are as hard as these say.
+VertexPaint direction_paint(const MeshFile& file);
 
 }  // namespace sphparam

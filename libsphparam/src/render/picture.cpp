@@ -150,7 +150,7 @@ class Drawing {
       case Colouring::Plain:
         return UniformPaint{};
       case Colouring::Normals:
-        return direction_paint(file_.mesh);
+        return direction_paint(file_);
       case Colouring::Checker:
         return CheckerPaint{.rays = map_.value().points};
       case Colouring::Area:

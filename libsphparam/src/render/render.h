@@ -30,6 +30,7 @@ struct UniformPaint {
 struct VertexPaint {
   std::vector<Rgb> colours;
   bool blends = true;
+  std::vector<Rgb> of_corners = {};  // 3·#F, interpolated instead; empty: those of vertices
 };
 /// A colour a triangle.
 struct FacePaint {

@@ -139,7 +139,9 @@ Rgb SurfaceColour::painted(const ShadedSample& sample) const {
               return to_linear(paint.colours[static_cast<size_t>(corner)]);
             }
             return mean([&](int k) {
-              return to_linear(paint.colours[static_cast<size_t>(triangles(sample.face, k))]);
+              return to_linear(paint.of_corners.empty()
+                                   ? paint.colours[static_cast<size_t>(triangles(sample.face, k))]
+                                   : paint.of_corners[static_cast<size_t>(3 * sample.face + k)]);
             });
           },
           [&](const FacePaint& paint) {
