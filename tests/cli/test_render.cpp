@@ -279,7 +279,9 @@ TEST_CASE(
   CHECK_THAT(own.err, !Contains("warning"));
 
   const Ended bare = drawn({map});
-  CHECK_THAT(bare.err, Contains("shown without its texture") && Contains("--texture"));
+  CHECK_THAT(bare.err, Contains("shown without its texture") &&
+                           Contains("--texture IMAGE names it, or the file that was mapped, with "
+                                    "--sphere "));
   CHECK(bare.out == drawn({map, "--colour", "normals"}).out);
   const Ended both = drawn({glb, "--sphere", map});
   CHECK_THAT(both.err, !Contains("warning"));

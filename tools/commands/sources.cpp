@@ -165,7 +165,7 @@ std::shared_ptr<const MeshTextures> read_shown_textures(const MeshFile& file,
   const std::string name = display_name(path);
   const ShownTextures shown = shown_textures(file, name, image, session.threads());
   const std::string advice =
-      ": --texture IMAGE names it, or the glTF file with --sphere " + name + " has it";
+      ": --texture IMAGE names it, or the file that was mapped, with --sphere " + name + ", has it";
   if (!shown.warning.empty())
     session.console.warning(shown.warning + (shown.left_behind ? advice : ""));
   return shown.textures;
