@@ -124,7 +124,8 @@ TEST_CASE("compare_maps: what cannot be is refused before any work") {
   refused({"progressive", "progressive"}, {});
   refused({"progressive"}, {named("progressive")});
   refused({"progressive"}, {named("peer"), named("peer")});
-  for (const char* name : {"", "a/b", "a#b", "50%", "my map"}) refused({}, {named(name)});
+  for (const char* name : {"", "a/b", "a#b", "50%", "my map", "..", "-b"})
+    refused({}, {named(name)});
   refused({"progressive"}, {{.name = "few", .map = {file.mesh.positions.topRows(5)}}});
   for (const int size : {15, 0, -1, 4097}) refused({}, {named("peer")}, size);
   const CompareOptions small{.size = 16};

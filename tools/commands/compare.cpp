@@ -63,14 +63,6 @@ Words parse_methods(const std::string& text) {
   return methods;
 }
 
-/// A name that can be part of a file's name anywhere.
-bool is_plain(const std::string& name) {
-  return !name.empty() && name.front() != '.' && name.front() != '-' &&
-         name.find_first_not_of(
-             "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-             "0123456789._-") == std::string::npos;
-}
-
 /// Names and files of --add.
 std::vector<std::pair<std::string, std::string>> parse_added(const CompareArguments& arguments) {
   const Words methods = method_names();
@@ -78,7 +70,7 @@ std::vector<std::pair<std::string, std::string>> parse_added(const CompareArgume
   std::vector<std::pair<std::string, std::string>> added;
   for (const std::string& text : arguments.added) {
     const auto one = name_and_file(text);
-    if (!one || !is_plain(one->first)) {
+    if (!one || !can_name_files(one->first)) {
       throw UsageMistake(
           "--add: expected NAME=FILE, the name of letters, digits, dots, - and _, not " + text);
     }

@@ -18,13 +18,6 @@ AnyMethod require_method(const std::string& name) {
   throw std::invalid_argument("no method " + name);
 }
 
-/// Can it be part of a file's name anywhere, and of an address on a page?
-bool is_plain(std::string_view name) {
-  constexpr std::string_view letters =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-";
-  return !name.empty() && name.find_first_not_of(letters) == std::string_view::npos;
-}
-
 /// Files are called by the names of the maps: two of one name would be one file.
 void require_names(const std::vector<std::string>& methods, const std::vector<NamedMap>& others) {
   std::set<std::string> names;
@@ -34,14 +27,22 @@ void require_names(const std::vector<std::string>& methods, const std::vector<Na
   };
   for (const std::string& method : methods) take(method);
   for (const NamedMap& other : others) {
-    if (!is_plain(other.name))
+    if (!can_name_files(other.name))
       throw std::invalid_argument("a map to compare is called \"" + other.name +
-                                  "\": its name must be of letters, digits, dots, - and _");
+                                  "\": its name must be of letters, digits, dots, - and _, and "
+                                  "begin with no dot and no -");
     take(other.name);
   }
 }
 
 }  // namespace
+
+bool can_name_files(std::string_view name) {
+  constexpr std::string_view letters =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-";
+  return !name.empty() && name.front() != '.' && name.front() != '-' &&
+         name.find_first_not_of(letters) == std::string_view::npos;
+}
 
 std::vector<std::string> method_names() {
   std::vector<std::string> names;

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,9 @@ namespace sphparam {
 
 /// Files of a folder, as name and bytes; nothing touches the disk here.
 using FolderFiles = std::vector<std::pair<std::string, std::string>>;
+
+/// Can a map be called so? Its name is part of names of files anywhere, and of addresses on a page.
+bool can_name_files(std::string_view name);
 
 struct ComparisonOptions {
   bool pictures = true;  // of the spheres; they need the image module

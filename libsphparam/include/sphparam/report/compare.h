@@ -30,11 +30,11 @@ std::vector<std::string> method_names();
 /// with the table, the spheres, and the polar charts of the first map against each other one, and
 /// what it shows, as names and bytes of files of one folder. Methods of others run as their authors
 /// published them, and no map of theirs is repaired: maps that fold are results here.
-/// Requires: a method or a map; names of maps are of letters, digits, dots, - and _, and each is
-/// there once, for files are called by them. Throws: std::invalid_argument, before any work, where
-/// that is not so, for a name that is not among `method_names`, for a size outside its domain, or
-/// not a ray a vertex; MeshError unless the mesh is a closed genus-0 manifold; ImageError;
-/// Cancelled.
+/// Requires: a method or a map; names of maps are of letters, digits, dots, - and _, begin with
+/// neither dot nor -, and each is there once, for files are called by them. Throws:
+/// std::invalid_argument, before any work, where that is not so, for a name that is not among
+/// `method_names`, for a size outside its domain, or not a ray a vertex; MeshError unless the mesh
+/// is a closed genus-0 manifold; ImageError; Cancelled.
 std::vector<std::pair<std::string, std::string>> compare_maps(
     const std::string& name, const MeshFile& file, const std::vector<std::string>& methods,
     const std::vector<NamedMap>& others = {}, const CompareOptions& options = {});
