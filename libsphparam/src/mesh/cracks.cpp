@@ -17,7 +17,7 @@
 // both; as those that stay are apart by more than the tolerance, nothing creeps. Then an edge with
 // one face is split at the boundary vertices that lie within the tolerance of its interior
 // (T-junctions); without a tolerance at those that lie on it but for rounding. What stays is found
-// by a grid of cells as large as the tolerance, of which each has few; what lies along an edge by a
+// by a grid of cells of twice the tolerance, of which each has few; what lies along an edge by a
 // tree of boxes, whatever the lengths of edges are, and however many vertices lie in one place.
 
 namespace sphparam {
