@@ -465,7 +465,7 @@ TEST_CASE("ply_reader: TextureFile comments are materials, a face's by its texnu
   CHECK(read(two_pages).base_colours.empty());
 }
 
-TEST_CASE("ply_reader: coordinates of vertices do for images; without any they are told") {
+TEST_CASE("ply_reader: coordinates of vertices do for images, and without any they are told") {
   const PlyFolder folder;
   const std::string text =
       "ply\nformat ascii 1.0\ncomment TextureFile p0.png\nelement vertex 3\nproperty float x\n"
