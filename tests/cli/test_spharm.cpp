@@ -170,6 +170,10 @@ TEST_CASE("spharm: the radius of a radial map, in geodesy's normalisation, and a
   CHECK(other.code == 0);
   CHECK_THAT(other.err, Contains("are the map's, not the body's"));
   CHECK(sphparam_program({"spharm", map, "--centre", "0,0,0", "--json", "-"}).code == 2);
+  const Ended far =
+      sphparam_program({"spharm", map, "--radius", "--centre", "1e300,0,0", "--json", "-"});
+  CHECK(far.code == 2);
+  CHECK_THAT(far.err, Contains("--centre: it is so far from the mesh"));
 }
 
 TEST_CASE("spharm: --align gives a turned mesh the same coefficients, and writes the turned map") {

@@ -278,14 +278,15 @@ TEST_CASE(
 }
 
 TEST_CASE("obj_reader: comments between and behind the statements are kept, the first thousand") {
-  const MeshFile file = read(
-      "# head\n" + three_vertices + "# ear restored\n\n  #\nf 1 2 3 # of a line\n# end", "a.obj");
-  CHECK(file.comments == std::vector<std::string>{"head", "ear restored", "", "end"});
+  const MeshFile file =
+      read("# head\n" + three_vertices + "# ear restored\n\n  #\nf 1 2 3 # of a line\n# the end",
+           "a.obj");
+  CHECK(file.comments == std::vector<std::string>{"head", "ear restored", "the end"});
   std::string many = "# head\n" + three_vertices;
-  for (int i = 0; i < 1002; ++i) many += "# " + std::to_string(i) + "\nf 1 2 3\n";
+  for (int i = 0; i < 1002; ++i) many += "# no. " + std::to_string(i) + "\nf 1 2 3\n";
   const MeshFile first = read(many, "a.obj");
   CHECK(first.comments.size() == 1001);
-  CHECK(first.comments.back() == "999");
+  CHECK(first.comments.back() == "no. 999");
   CHECK(first.notes == std::vector<std::string>{"not carried: 2 comments behind the first 1000"});
   const MeshFile polypaint =
       read(three_vertices + "#MRGB ffff0000ffff0000\n#MRGB ffff0000\nf 1 2 3\n", "a.obj");
@@ -298,6 +299,14 @@ TEST_CASE("obj_reader: third texture coordinates are told where they say somethi
   CHECK(read(three_vertices + faces, "a.obj").notes ==
         std::vector<std::string>{"not carried: third texture coordinates"});
   CHECK(read(three_vertices + replaced(faces, "0.5", "0"), "a.obj").notes.empty());
+}
+
+TEST_CASE("remarks: what counts a file, or the parts of its text, is true of that file alone") {
+  for (const char* tally : {"4537 vertices, 0 vertices normals", "Vertices: 3476", "End of File",
+                            "Point/Line/Face list", "", "####", "9447 vertices, 18894 faces"})
+    CHECK(is_tally(tally));
+  for (const char* remark : {"1998", "Inv. 12", "end of excavation", "Face of a god", "unit mm"})
+    CHECK_FALSE(is_tally(remark));
 }
 
 TEST_CASE("remarks: of comments those that say something of the object, of numbers the others") {

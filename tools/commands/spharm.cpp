@@ -63,6 +63,8 @@ std::optional<Vector3> centre_of_radius(const SpharmArguments& arguments, const 
                                         Session& session) {
   if (!arguments.radius && arguments.shadr.empty()) return std::nullopt;
   const Vector3 centre = body_centre(planetocentric(mapped.provenance()), arguments.centre);
+  if (!(mapped.mesh().positions.rowwise() - centre.transpose()).rowwise().norm().allFinite())
+    throw UsageMistake("--centre: it is so far from the mesh that the radius is no number");
   const std::string off = longitudes_off(mapped, centre, false, session.threads());
   if (!off.empty())
     session.console.warning("the longitudes of these harmonics are the map's, not the body's: " +

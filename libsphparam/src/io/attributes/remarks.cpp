@@ -41,7 +41,39 @@ void add_names(std::vector<std::string>& words, const std::vector<Property>& pro
   if (!names.empty()) words.push_back(enumerated(names) + " of " + whose);
 }
 
+/// In small letters, without what stands between them.
+std::vector<std::string> small_words_of(std::string_view text) {
+  std::vector<std::string> words(1);
+  for (const char c : text) {
+    const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+    const bool is_digit = c >= '0' && c <= '9';
+    if (is_letter || is_digit) {
+      words.back() += static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+    } else if (!words.back().empty()) {
+      words.emplace_back();
+    }
+  }
+  if (words.back().empty()) words.pop_back();
+  return words;
+}
+
 }  // namespace
+
+bool is_tally(std::string_view comment) {
+  static constexpr std::array<std::string_view, 25> known = {
+      "vertex", "vertices", "verts",  "face",  "faces",     "triangles", "quads",
+      "edges",  "points",   "point",  "lines", "line",      "polygons",  "normals",
+      "normal", "texture",  "coords", "coord", "materials", "groups",    "uvs",
+      "list",   "end",      "of",     "file"};
+  const auto is_number = [](const std::string& word) {
+    return word.find_first_not_of("0123456789") == word.npos;
+  };
+  const std::vector<std::string> words = small_words_of(comment);
+  const auto numbers = std::ranges::count_if(words, is_number);
+  const auto others = std::ranges::count_if(
+      words, [&](const std::string& word) { return std::ranges::count(known, word) > 0; });
+  return numbers + others == std::ssize(words) && (words.empty() || others > 0);
+}
 
 std::vector<std::string> remarks_of(const MeshFile& file) {
   std::vector<std::string> remarks;

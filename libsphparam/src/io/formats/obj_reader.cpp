@@ -11,6 +11,7 @@
 
 #include "io/attributes/material_comments.h"
 #include "io/attributes/named_file.h"
+#include "io/attributes/remarks.h"
 #include "io/files/text_scanner.h"
 #include "io/formats/obj_materials.h"
 #include "number_text.h"
@@ -123,8 +124,10 @@ class ObjReader {
       ++ignored_[of_zbrush];
       return;
     }
+    std::string comment = one_line(scanner_.comment());
+    if (!in_header_ && is_tally(comment)) return;
     if (!in_header_ && ++later_comments_ > most_later_comments) return;
-    file_.comments.push_back(one_line(scanner_.comment()));
+    file_.comments.push_back(std::move(comment));
   }
 
   void read_vertex() {
