@@ -33,6 +33,17 @@ function(install_pkgconfig libdir component)
   install(FILES ${files} DESTINATION ${pkgconfig_dir} COMPONENT ${component} ${ARGN})
 endfunction()
 
+# The libraries that a component is linked with, and those of the components that it is built on.
+function(linked_in_all result component)
+  get_property(linked GLOBAL PROPERTY sphparam_linked_by_${component})
+  foreach(other IN LISTS needs_${component})
+    linked_in_all(more ${other})
+    list(APPEND linked ${more})
+  endforeach()
+  list(REMOVE_DUPLICATES linked)
+  set(${result} "${linked}" PARENT_SCOPE)
+endfunction()
+
 # What a component installs whose libraries are in that folder: every path in it is relative, so that
 # the tree can be moved. Further arguments go to all of its install().
 function(install_development libdir component runtime)
@@ -49,7 +60,7 @@ function(install_development libdir component runtime)
 
   set(components "")
   foreach(built IN LISTS SPHPARAM_BUILT)
-    get_property(linked GLOBAL PROPERTY sphparam_linked_by_${built})
+    linked_in_all(linked ${built})
     string(APPEND components "set(sphparam_linked_by_${built} \"${linked}\")\n")
   endforeach()
   configure_package_config_file(cmake/sphparamConfig.cmake.in ${made}/sphparamConfig.cmake

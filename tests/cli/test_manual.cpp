@@ -126,11 +126,21 @@ TEST_CASE("completion: bash completes subcommands, options and words") {
   CHECK(completed("sphparam batch st") == "status\n");
   CHECK(completed("sphparam batch run --rehash --any") == "--any-program\n");
   CHECK(completed("sphparam completion ") == "bash zsh fish\n");
+  CHECK(completed("sphparam -q --threads 2 map --pol") == "--poles\n");
+  CHECK(completed("sphparam -q batch st") == "status\n");
   // Files, also where several may stand or the kind of file is said.
   const std::string begun = folder / "scri";
   for (const std::string line :
        {"map ", "map a.obj --data ", "report a.obj -o ", "batch table work -o "})
     CHECK(completed("sphparam " + line + begun) == begun + "pt\n");
+  write_bytes(folder / "blank name", "");  // one word of the reply, not two
+  const std::string script = bytes_of(folder / "script");
+  const std::string asked = "cd " + (folder / "") +
+                            "; COMP_WORDS=(sphparam map blan); COMP_CWORD=2; "
+                            "_sphparam; echo \"${#COMPREPLY[@]} ${COMPREPLY[0]}\"\n";
+  write_bytes(folder / "script", script.substr(0, script.rfind("COMP_WORDS=(")) + asked);
+  REQUIRE(std::system(("bash " + (folder / "script") + " >" + (folder / "reply")).c_str()) == 0);
+  CHECK(bytes_of(folder / "reply") == "1 blank name\n");
 }
 
 }  // namespace sphparam::tests

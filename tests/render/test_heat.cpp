@@ -100,6 +100,9 @@ TEST_CASE(
   HeatScale clipped{"x", 0.099972, 0.099978};  // a number that would begin beyond the left edge
   clipped.below = true;
   CHECK(numbers(400, clipped) == dots({"< 0.099972", "0.099975", "0.099978"}));
+  HeatScale typed{"x", 100.4, 200.6};
+  typed.given = true;
+  CHECK(numbers(400, typed) == dots({"100.4", "150", "200.6"}));
   const HeatScale plain{"x", 0, 0.5}, wide{"x", 0.001234, 0.005678};
   CHECK(numbers(200, plain) == dots({"0", "0.25", "0.5"}));
   CHECK(numbers(160, wide) == dots({"0.00123", "0.00568"}));

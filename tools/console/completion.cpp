@@ -67,9 +67,11 @@ std::string bash_values(const CommandEntry& command) {
     const std::vector<std::string> words = option.words();
     const std::string reply =
         !words.empty() ? "COMPREPLY=($(compgen -W " + quoted(joined(words, " ")) + " -- \"$word\"))"
-        : option.takes_folder() ? "compopt -o filenames; COMPREPLY=($(compgen -d -- \"$word\"))"
-        : option.takes_file()   ? "compopt -o filenames; COMPREPLY=($(compgen -f -- \"$word\"))"
-                                : "COMPREPLY=()";
+        : option.takes_folder()
+            ? "compopt -o filenames; mapfile -t COMPREPLY < <(compgen -d -- \"$word\")"
+        : option.takes_file()
+            ? "compopt -o filenames; mapfile -t COMPREPLY < <(compgen -f -- \"$word\")"
+            : "COMPREPLY=()";
     cases += "        " + joined(option.names, "|") + ") " + reply + "; return ;;\n";
   }
   return cases;
@@ -83,11 +85,16 @@ std::string bash_script(const std::vector<CommandEntry>& table) {
       "  local options=" +
       quoted(flags_of(table.front())) + " rest=" + quoted(joined(command_names(table), " ")) +
       "\n"
-      "  local command=\"${COMP_WORDS[1]}\"\n"
-      "  [[ $COMP_CWORD -gt 2 ]] && case $command in " +
+      "  local at=1\n"
+      "  while [[ $at -lt $COMP_CWORD && ${COMP_WORDS[at]} == -* ]]; do\n"
+      "    case ${COMP_WORDS[at]} in --progress|--threads|--max-memory|--limit) ((at++)) ;; esac\n"
+      "    ((at++))\n"
+      "  done\n"
+      "  local command=\"${COMP_WORDS[at]}\"\n"
+      "  [[ $COMP_CWORD -gt $((at + 1)) ]] && case $command in " +
       groups(table, "|") +
-      ") command+=\" ${COMP_WORDS[2]}\" ;; esac\n"
-      "  [[ $COMP_CWORD -gt 1 ]] && case $command in\n";
+      ") command+=\" ${COMP_WORDS[at+1]}\" ;; esac\n"
+      "  [[ $COMP_CWORD -gt $at ]] && case $command in\n";
   for (size_t i = 1; i < table.size(); ++i) {
     script += "    '" + table[i].name + "')\n      options=" + quoted(flags_of(table[i])) +
               " rest=" + quoted(joined(positional_words(table[i]), " ")) + "\n";
@@ -99,7 +106,7 @@ std::string bash_script(const std::vector<CommandEntry>& table) {
          "  esac\n"
          "  if [[ $word == -?* ]]; then COMPREPLY=($(compgen -W \"$options\" -- \"$word\"))\n"
          "  elif [[ $rest ]]; then COMPREPLY=($(compgen -W \"$rest\" -- \"$word\"))\n"
-         "  else compopt -o filenames; COMPREPLY=($(compgen -f -- \"$word\"))\n"
+         "  else compopt -o filenames; mapfile -t COMPREPLY < <(compgen -f -- \"$word\")\n"
          "  fi\n"
          "}\n"
          "complete -F _sphparam sphparam\n";

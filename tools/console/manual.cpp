@@ -47,6 +47,9 @@ Any value that is not empty: no colours on a terminal.
 .B TERM
 .I dumb
 means no colours and no progress line.
+.TP
+.B SPHPARAM_MODULES
+A folder where the modules of images and scenes are looked for first.
 )";
 
 constexpr char closing[] = R"(.SH STANDARDS

@@ -65,6 +65,10 @@ std::vector<Tick> ends(const HeatScale& scale, bool middle) {
     if (std::ranges::adjacent_find(all, {}, &Tick::label) == all.end()) break;
     if (scale.low < scale.high) all = labelled(values, digits);
   }
+  if (scale.given) {
+    all.front().label = shortest(scale.low);
+    all.back().label = shortest(scale.high);
+  }
   if (scale.below) all.front().label = "< " + all.front().label;
   if (scale.above) all.back().label = "> " + all.back().label;
   return all;

@@ -16,6 +16,7 @@ struct HeatScale {
   bool log_ratios = false;  // values are log₂ of the ratios that the scale shows
   // Whether values lie beyond an end, which its number says then: "≤ 0.1", "≥ 0.9". Not of ratios.
   bool below = false, above = false;
+  bool given = false;  // its ends are numbers that somebody typed, which are shown as they are
 
   bool diverges() const { return low == -high; }
 };

@@ -75,6 +75,7 @@ ValuePaint value_paint(const MeshFile& file, const std::string& property,
   if (const std::vector<Label> labels = labels_of(file, shown); !labels.empty())
     return {label_paint(shown, labels), std::nullopt};
   HeatScale scale = range ? HeatScale{shown.name, range->first, range->second} : scale_of(shown);
+  scale.given = range.has_value();
   note_values_beyond(shown, scale);
   VertexPaint paint;
   for (const double value : shown.values)
