@@ -71,6 +71,7 @@ TEST_CASE("survey: a file that memory does not hold is told, and the others go o
   const Ended ended = sphparam_program({"survey", scans, "-o", page, "--size", "0", "--threads",
                                         "1", "--max-memory", "48M", "--json", "-"});
   CHECK(ended.code == 4);
+  CHECK_THAT(ended.err, Contains("0 do not, 1 were stopped: the page says why"));
   const Json json = Json::parse(ended.out);
   CHECK(json["counts"]["stopped"] == 1);
   CHECK(json["counts"]["maps"] == 1);

@@ -57,11 +57,13 @@ Survey surveyed(const SurveyArguments& arguments, Session& session) {
 std::string line_of(const Survey& survey) {
   const auto all = static_cast<long>(survey.meshes.size());
   const long whole = survey.count(SurveyEnd::Maps), mended = survey.count(SurveyEnd::MapsMended),
-             asked = survey.count(SurveyEnd::MapsIfAsked);
+             asked = survey.count(SurveyEnd::MapsIfAsked),
+             stopped = survey.count(SurveyEnd::Stopped);
   return survey.folder + ": of " + std::to_string(all) + " " + std::to_string(whole) +
          " map as they are, " + std::to_string(mended) + " after --repair, " +
          std::to_string(asked) + " if asked for more, " +
-         std::to_string(all - whole - mended - asked) + " do not";
+         std::to_string(all - whole - mended - asked - stopped) + " do not" +
+         (stopped > 0 ? ", " + std::to_string(stopped) + " were stopped: the page says why" : "");
 }
 
 int run_survey(SurveyArguments& arguments) try {
