@@ -34,7 +34,7 @@ def body_asset():
 def wrapped(asset, faces=4000):
     """A closed surface about an asset, with its chart, as the asset's coordinates lie."""
     low = work / "low.ply"
-    ran("wrap", asset, "--resolution", 128, "--distance", "0", "--faces", faces, "-o", low)
+    ran("wrap", asset, "--resolution", 128, "--faces", faces, "-o", low)
     ran("map", low, "-o", work / "low.sph.ply")
     ran("export", work / "low.sph.ply", "-o", work / "low.obj")
     return work / "low.sph.ply"
