@@ -29,7 +29,7 @@ TEST_CASE("child process: no program that is started meanwhile has its pipe") {
 
 TEST_CASE("child process: one that takes more time or memory than it may is an error") {
   const auto runs_on = []() -> std::string {
-    for (volatile int i = 0;;) i = i + 1;
+    for (volatile unsigned i = 0;;) i = i + 1;
   };
   CHECK_THROWS_WITH(result_of_child(runs_on, {.seconds = 1}), "takes more than 1 s");
 #ifndef __SANITIZE_ADDRESS__
