@@ -1,7 +1,9 @@
 #include <catch2/catch.hpp>
 #include <numbers>
+#include <random>
 
 #include "sphere/solid_angle.h"
+#include "sphparam/sphere/certificate.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -48,4 +50,27 @@ TEST_CASE(
     CHECK(tiny[v] / small[v] == Approx(0x1p-20).epsilon(1e-5));  // as flat as the other
   }
   CHECK(inside > 50);
+}
+
+TEST_CASE("solid_angle: a triangle of next to half the sphere has the sign that it has exactly") {
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  const TriangleMesh sphere = tetrahedron();
+  const Topology topology(sphere);
+  int certified = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Vector3 up = Vector3(normal(random), normal(random), normal(random)).normalized();
+    const Vector3 right = up.unitOrthogonal(), ahead = up.cross(right);
+    SphereMap map{sphere.positions};
+    for (int k = 0; k < 3; ++k) {  // about the circle of its first face, whose other side `down` is
+      const double at = 2 * std::numbers::pi / 3 * k;
+      map.points.row(topology.vertex(0, k)) =
+          (std::cos(at) * right + std::sin(at) * ahead).normalized();
+    }
+    map.points.row(6 - topology.vertex(0, 0) - topology.vertex(0, 1) - topology.vertex(0, 2)) = -up;
+    if (!certify(topology, map).bijective()) continue;
+    ++certified;
+    CHECK(vertex_solid_angles(topology, map).sum() == Approx(4 * std::numbers::pi).epsilon(1e-12));
+  }
+  CHECK(certified > 50);
 }

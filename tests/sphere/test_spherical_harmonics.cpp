@@ -198,6 +198,21 @@ TEST_CASE("spherical_harmonics: functions do not feel each other, however many t
   }
 }
 
+TEST_CASE("spherical_harmonics: functions of any size have the same fit, to the bit") {
+  const TriangleMesh sphere = icosphere(3);
+  const Topology topology(sphere);
+  const SphereMap map = uneven(sphere);
+  for (const bool least_squares : {true, false}) {
+    const HarmonicFitOptions options{.degree = 6, .least_squares = least_squares};
+    const HarmonicFit plain = fit_harmonics(topology, map, sphere.positions, options);
+    for (const double size : {0x1p-700, 0x1p700}) {
+      const HarmonicFit sized = fit_harmonics(topology, map, sphere.positions * size, options);
+      CHECK(sized.coefficients == plain.coefficients * size);
+      CHECK(sized.rms == plain.rms * size);
+    }
+  }
+}
+
 TEST_CASE("spherical_harmonics: known coefficients of degree 200 come back") {
   const QuadratureGrid grid = quadrature_grid(200);
   const Functions known = random_coefficients(200, 1, 9);

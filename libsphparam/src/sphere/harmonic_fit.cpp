@@ -141,6 +141,17 @@ void require_values(const Functions& values) {
   }
 }
 
+/// Powers of two, one a function, that bring its largest value to between 1 and 2: no square of
+/// what is counted then overflows or vanishes, and nothing is rounded.
+VectorX scales_of(const Functions& values) {
+  VectorX scales = VectorX::Ones(values.cols());
+  for (Eigen::Index k = 0; k < values.cols(); ++k) {
+    const double largest = values.col(k).cwiseAbs().maxCoeff();
+    if (largest > 0) scales[k] = std::ldexp(1.0, std::min(-std::ilogb(largest), 1023));
+  }
+  return scales;
+}
+
 }  // namespace
 
 HarmonicFit fit_harmonics(const Topology& topology, const SphereMap& map, const Functions& values,
@@ -152,16 +163,20 @@ HarmonicFit fit_harmonics(const Topology& topology, const SphereMap& map, const 
     throw std::invalid_argument("spherical harmonics: not one value and one ray a vertex");
   }
   require_values(values);
+  const VectorX scales = scales_of(values);
+  const Functions scaled = values * scales.asDiagonal();
   HarmonicFit fit;
   const VectorX shares = vertex_solid_angles(topology, map);
   if (options.least_squares) {
-    fit.coefficients = integrate(topology, map, values, options.degree, options).coefficients;
-    fit.iterations = NormalEquations(map.points, shares, options).solve(values, fit.coefficients);
+    fit.coefficients = integrate(topology, map, scaled, options.degree, options).coefficients;
+    fit.iterations = NormalEquations(map.points, shares, options).solve(scaled, fit.coefficients);
   } else {
-    integrate_until_settled(topology, map, values, options, fit);
+    integrate_until_settled(topology, map, scaled, options, fit);
   }
-  const Functions left = values - synthesise(fit.coefficients, map.points, options.threads);
+  const Functions left = scaled - synthesise(fit.coefficients, map.points, options.threads);
   fit.rms = ((shares.asDiagonal() * left.cwiseAbs2()).colwise().sum() / shares.sum()).cwiseSqrt();
+  fit.coefficients *= scales.cwiseInverse().asDiagonal();
+  fit.rms = fit.rms.cwiseQuotient(scales);
   return fit;
 }
 
