@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 // A flip swaps the edge between face f's corners 0 and 1 for the other diagonal of its two faces,
@@ -80,9 +81,52 @@ TriangleMesh Recipe::sphere_mesh() {
   TriangleMesh mesh{Points(vertices, 3), Triangles(static_cast<Eigen::Index>(faces.size()), 3)};
   for (std::size_t f = 0; f < faces.size(); ++f)
     for (int k = 0; k < 3; ++k) mesh.triangles(static_cast<Eigen::Index>(f), k) = faces[f][k];
-  for (Eigen::Index i = 0; i < mesh.positions.size(); ++i)
-    mesh.positions.data()[i] = coordinate(style);
+  mesh.positions = places(vertices, style);
   return mesh;
+}
+
+Points Recipe::places(Eigen::Index vertices, unsigned style) {
+  Points made(vertices, 3);
+  for (Eigen::Index i = 0; i < made.size(); ++i) made.data()[i] = coordinate(style);
+  return made;
+}
+
+Triangles Recipe::loose_triangles(int vertices) {
+  Triangles made(1 + byte() % 48, 3);
+  for (Eigen::Index f = 0; f < made.rows(); ++f) {
+    const int a = static_cast<int>(byte()) % vertices;
+    const int b = (a + 1 + static_cast<int>(byte()) % (vertices - 1)) % vertices;
+    int c = static_cast<int>(byte()) % vertices;
+    while (c == a || c == b) c = (c + 1) % vertices;
+    made.row(f) << a, b, c;
+  }
+  return made;
+}
+
+void Recipe::hurt(TriangleMesh& mesh) {
+  for (unsigned times = byte() % 8; times > 0; --times) {
+    const Eigen::Index f = byte() % mesh.face_count();
+    const unsigned how = byte();
+    const int other = static_cast<int>(how / 4) % static_cast<int>(mesh.vertex_count());
+    if (how % 4 == 0) std::swap(mesh.triangles(f, 0), mesh.triangles(f, 1));
+    if (how % 4 == 1 && (mesh.triangles.row(f).array() != other).all())
+      mesh.triangles(f, 2) = other;
+    if (how % 4 < 2 || mesh.face_count() == 1) continue;
+    mesh.triangles.row(f) = mesh.triangles.row(mesh.face_count() - 1).eval();
+    mesh.triangles.conservativeResize(mesh.face_count() - 1, 3);
+  }
+}
+
+TriangleMesh Recipe::soup() {
+  const unsigned what = byte();
+  if (what % 2 == 0) {
+    TriangleMesh mesh = sphere_mesh();
+    hurt(mesh);
+    return mesh;
+  }
+  const int vertices = 3 + static_cast<int>(what / 2) % 14;
+  Triangles triangles = loose_triangles(vertices);
+  return {places(vertices, byte() % 4), std::move(triangles)};
 }
 
 }  // namespace sphparam::tests

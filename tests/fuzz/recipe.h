@@ -20,7 +20,14 @@ class Recipe {
   /// coincide), anywhere, or far apart in size.
   TriangleMesh sphere_mesh();
 
+  /// Up to 48 triangles of up to 16 vertices, none of which is twice in one, or a mesh as above of
+  /// which some triangles are turned, moved to other vertices or left out.
+  TriangleMesh soup();
+
  private:
+  Triangles loose_triangles(int vertices);
+  void hurt(TriangleMesh& mesh);
+  Points places(Eigen::Index vertices, unsigned style);
   double coordinate(unsigned style);
 
   std::span<const std::uint8_t> bytes_;
