@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <functional>
 #include <string>
 
@@ -115,6 +116,29 @@ TEST_CASE("baselines: the number of threads changes no bit") {
     REQUIRE(three.map);
     CHECK(one.map->points == three.map->points);
     CHECK(one.statement == three.statement);
+  }
+}
+
+TEST_CASE("baselines: maps do not depend on size, where squares overflow or vanish either") {
+  TriangleMesh mesh = tube(12, 12);
+  mesh.positions /= mesh.positions.cwiseAbs().maxCoeff();
+  const Topology topology(mesh);
+  const Bisection bisection = bisect(mesh, topology, 1);
+  const SphereMap placed = place_hemispheres(mesh, topology, bisection, 1);
+  for (const int exponent : {-1000, -350, 350, 1000}) {
+    TriangleMesh other = mesh;
+    other.positions *= std::ldexp(1.0, exponent);
+    CHECK(bisect(other, topology, 1).seam == bisection.seam);
+    CHECK(place_hemispheres(other, topology, bisection, 1).points == placed.points);
+    for (const Baseline& baseline : all_baselines()) {
+      INFO(baseline.name << ", times 2^" << exponent);
+      const BaselineResult result = baseline.map(mesh, topology, 1, {});
+      const BaselineResult scaled = baseline.map(other, topology, 1, {});
+      REQUIRE(result.map);
+      REQUIRE(scaled.map);
+      CHECK(scaled.map->points == result.map->points);
+      CHECK(scaled.statement == result.statement);
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "baselines/harmless_mesh.h"
 #include "mesh/laplace_system.h"
 #include "sphparam/baselines/hemispheres.h"
 #include "sphparam/mesh/edge_weights.h"
@@ -111,7 +112,7 @@ class Growth {
 }  // namespace
 
 Bisection bisect(const TriangleMesh& mesh, const Topology& topology, int threads) {
-  const VectorX height = harmonic_height(mesh, topology, threads);
+  const VectorX height = harmonic_height(HarmlessMesh(mesh).mesh, topology, threads);
   const std::vector<char> low = Growth(topology, height).grow();
   Bisection result;
   for (const char joined : low) result.side.push_back(joined ? 1 : 0);

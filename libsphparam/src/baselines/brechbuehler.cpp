@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "baselines/equal_areas.h"
+#include "baselines/harmless_mesh.h"
 #include "baselines/outcome.h"
 #include "option_domain.h"
 #include "sphparam/sphere/spherical_coordinates.h"
@@ -135,15 +136,17 @@ const char* ending(BaselineEnd end) {
 
 }  // namespace
 
-BaselineResult map_brechbuehler(const TriangleMesh& mesh, const Topology& topology,
+BaselineResult map_brechbuehler(const TriangleMesh& given, const Topology& topology,
                                 const BrechbuehlerOptions& options, const Progress& progress) {
   if (options.poles) {
-    require_vertex("poles: north", options.poles->first, mesh.vertex_count());
-    require_vertex("poles: south", options.poles->second, mesh.vertex_count());
+    require_vertex("poles: north", options.poles->first, given.vertex_count());
+    require_vertex("poles: south", options.poles->second, given.vertex_count());
   }
   require_at_least("max_steps", options.max_steps, 0);
   require_between("least_gain", options.least_gain, 0, 1);
   require_at_least("greatest_penalty", options.greatest_penalty, 1);
+  const HarmlessMesh harmless(given);
+  const TriangleMesh& mesh = harmless.mesh;
   return run_rival([&](Outcome& outcome) {
     report(progress, "heat conduction", 0);
     const auto [north, south] = options.poles.value_or(extremes_of_z(mesh));

@@ -4,9 +4,11 @@
 #include <utility>
 #include <vector>
 
+#include "baselines/harmless_mesh.h"
 #include "baselines/mobius_centring.h"
 #include "baselines/outcome.h"
 #include "baselines/weighted_rings.h"
+#include "number_text.h"
 #include "option_domain.h"
 #include "sphparam/mesh/edge_weights.h"
 #include "sphparam/parallel.h"
@@ -121,10 +123,12 @@ DescentEnd descend(const Descent& descent, SphereMap& map, const char* stage,
 
 }  // namespace
 
-BaselineResult map_conformal(const TriangleMesh& mesh, const Topology& topology,
+BaselineResult map_conformal(const TriangleMesh& given, const Topology& topology,
                              const ConformalOptions& options, const Progress& progress) {
   require_at_least("max_iterations", options.max_iterations, 0);
   require_between("least_gain", options.least_gain, 0, 1);
+  const HarmlessMesh harmless(given);
+  const TriangleMesh& mesh = harmless.mesh;
   Outcome outcome;
   const VectorX mass = vertex_masses(mesh);
   SphereMap map = mobius_centred(gauss_map(mesh), mass, 60, options.threads);
@@ -142,7 +146,7 @@ BaselineResult map_conformal(const TriangleMesh& mesh, const Topology& topology,
 
   const bool converged = first.converged && last.converged;
   const std::string energy =
-      "; harmonic energy " + std::to_string(last.energy) + " (that of a conformal map: 12.566371)";
+      "; harmonic energy " + short_number(last.energy, 8) + " (that of a conformal map: 12.566371)";
   return outcome.take(std::move(map),
                       converged ? BaselineEnd::Converged : BaselineEnd::IterationLimit,
                       (converged ? "both descents ended by their rule"

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "baselines/harmless_mesh.h"
 #include "baselines/mobius_centring.h"
 #include "baselines/outcome.h"
 #include "baselines/vertex_system.h"
@@ -120,11 +121,13 @@ SphereMap projected(const Points& x) {
 
 }  // namespace
 
-BaselineResult map_flow(const TriangleMesh& mesh, const Topology& topology,
+BaselineResult map_flow(const TriangleMesh& given, const Topology& topology,
                         const FlowOptions& options, const Progress& progress) {
   require_at_least("max_steps", options.max_steps, 0);
   require_more_than("time_step", options.time_step, 0);
   require_at_least("roundness", options.roundness, 0);
+  const HarmlessMesh harmless(given);
+  const TriangleMesh& mesh = harmless.mesh;
   return run_rival([&](Outcome& outcome) {
     report(progress, "curvature flow", 0);
     Points x = mesh.positions;

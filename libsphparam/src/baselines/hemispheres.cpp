@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "baselines/harmless_mesh.h"
 #include "baselines/outcome.h"
 #include "baselines/tutte_equations.h"
 #include "baselines/weighted_rings.h"
@@ -63,8 +64,10 @@ std::string describe(const TutteSolution& solution, double tolerance) {
 
 }  // namespace
 
-SphereMap place_hemispheres(const TriangleMesh& mesh, const Topology& topology,
+SphereMap place_hemispheres(const TriangleMesh& given, const Topology& topology,
                             const Bisection& bisection, int threads) {
+  const HarmlessMesh harmless(given);
+  const TriangleMesh& mesh = harmless.mesh;
   std::vector<VertexRole> roles(static_cast<size_t>(topology.vertex_count()), VertexRole::Free);
   MatrixX plane = MatrixX::Zero(topology.vertex_count(), 2);
   const std::vector<double> longitudes = seam_longitudes(mesh, bisection.seam);
@@ -89,7 +92,7 @@ SphereMap place_hemispheres(const TriangleMesh& mesh, const Topology& topology,
   return map;
 }
 
-BaselineResult map_hemispheres(const TriangleMesh& mesh, const Topology& topology,
+BaselineResult map_hemispheres(const TriangleMesh& given, const Topology& topology,
                                const HemispheresOptions& options, const Progress& progress) {
   require_one_of("weights", options.weights, WeightKind::SymmetricMeanValue);
   if (options.weights == WeightKind::MeanValue) {
@@ -98,6 +101,8 @@ BaselineResult map_hemispheres(const TriangleMesh& mesh, const Topology& topolog
   require_at_least("max_sweeps", options.max_sweeps, 0);
   require_at_least("max_steps", options.max_steps, 0);
   require_at_least("tolerance", options.tolerance, 0);
+  const HarmlessMesh harmless(given);
+  const TriangleMesh& mesh = harmless.mesh;
   return run_rival([&](Outcome& outcome) {
     report(progress, "bisection", 0);
     const Bisection bisection = bisect(mesh, topology, options.threads);

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "baselines/harmless_mesh.h"
 #include "baselines/outcome.h"
 #include "baselines/vertex_system.h"
 #include "elementary.h"
@@ -104,11 +105,13 @@ SphereMap to_sphere(Plane plane) {
 
 }  // namespace
 
-BaselineResult map_stereographic(const TriangleMesh& mesh, const Topology& topology,
+BaselineResult map_stereographic(const TriangleMesh& given, const Topology& topology,
                                  const StereographicOptions& options, const Progress& progress) {
   if (options.cut) {
-    require_between("cut", *options.cut, 0, static_cast<double>(mesh.face_count() - 1));
+    require_between("cut", *options.cut, 0, static_cast<double>(given.face_count() - 1));
   }
+  const HarmlessMesh harmless(given);
+  const TriangleMesh& mesh = harmless.mesh;
   return run_rival([&](Outcome& outcome) {
     report(progress, "conformal map to the plane", 0);
     const Face cut = options.cut.value_or(triangle_to_cut(mesh));

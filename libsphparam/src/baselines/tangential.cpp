@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "baselines/harmless_mesh.h"
 #include "baselines/outcome.h"
 #include "baselines/weighted_rings.h"
 #include "elementary.h"
@@ -184,14 +185,15 @@ class Smoothing {
 
 }  // namespace
 
-BaselineResult map_tangential(const TriangleMesh& mesh, const Topology& topology,
+BaselineResult map_tangential(const TriangleMesh& given, const Topology& topology,
                               const TangentialOptions& options, const Progress& progress) {
   require_one_of("laplacian", options.laplacian, TangentialOptions::Operator::Uniform);
   require_at_least("max_sweeps", options.max_sweeps, 0);
   require_at_least("sweeps_per_anchors", options.sweeps_per_anchors, 1);
   require_at_least("rest", options.rest, 0);
+  const HarmlessMesh harmless(given);
   Outcome outcome;
-  Smoothing smoothing(mesh, topology, options);
+  Smoothing smoothing(harmless.mesh, topology, options);
   outcome.finish_stage("central projection");
   smoothing.run(progress);
   outcome.finish_stage("tangential smoothing", smoothing.sweeps());
