@@ -81,6 +81,15 @@ TEST_CASE("hemispheres: Tutte's equations are solved, and the solution is one-to
   }
 }
 
+TEST_CASE("hemispheres: equations without weights have no solution, and none is told") {
+  TriangleMesh mesh = icosphere(1);
+  mesh.positions.setOnes();
+  const BaselineResult result =
+      map_hemispheres(mesh, Topology(mesh), {.weights = WeightKind::Cotangent});
+  CHECK(result.end == BaselineEnd::NoResult);
+  CHECK(result.statement.find("the factorisation failed") != std::string::npos);
+}
+
 TEST_CASE("hemispheres: a solution stays where it is, sweeps or not") {
   const TriangleMesh mesh = icosphere(2);
   const Topology topology(mesh);

@@ -79,7 +79,8 @@ double TutteEquations::residual(const SphereMap& map) const {
     along += area / total * fields.transpose() * pull;
     metric += area * area / total * fields.transpose() * fields;
   }
-  return std::sqrt(std::max(0.0, sum - along.dot(metric.ldlt().solve(along))));
+  // What is no number stays one, in this order: it solves nothing.
+  return std::sqrt(std::max(sum - along.dot(metric.ldlt().solve(along)), 0.0));
 }
 
 TutteSolution TutteEquations::sweep(SphereMap map, int max_sweeps, const Progress& progress) const {
