@@ -74,3 +74,24 @@ TEST_CASE("solid_angle: a triangle of next to half the sphere has the sign that 
   }
   CHECK(certified > 50);
 }
+
+TEST_CASE("solid_angle: corners that are nearly opposite leave the shares what they are") {
+  std::mt19937_64 random(2);
+  std::normal_distribution<double> normal;
+  const auto direction = [&] {
+    return Vector3(normal(random), normal(random), normal(random)).normalized().eval();
+  };
+  const TriangleMesh sphere = tetrahedron();
+  const Topology topology(sphere);
+  int certified = 0;
+  for (int i = 0; i < 500; ++i) {
+    SphereMap map{Points(4, 3)};
+    for (int v = 0; v < 4; ++v) map.points.row(v) = direction();
+    map.points.row(1) = (-map.point(0) + std::ldexp(1.0, -i % 52) * direction()).normalized();
+    if (!certify(topology, map).bijective()) continue;
+    ++certified;
+    CHECK(vertex_solid_angles(topology, map).sum() == Approx(4 * std::numbers::pi).epsilon(1e-12));
+    CHECK(vertex_solid_angles(topology, map).minCoeff() > 0);
+  }
+  CHECK(certified > 20);
+}

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "elementary.h"
+#include "sphere/difference_of_products.h"
 #include "sphparam/sphere/orientation.h"
 
 // The edge from a to b meets the meridian plane of a ray c in ±(det(c, b)·a − det(c, a)·b), where
@@ -25,12 +26,6 @@ bool crosses_meridian(const Vector3& a, const Vector3& b) {
   if (a.y() < 0 && b.y() > 0) return orientation(a, b, Vector3::UnitZ()) > 0;
   if (a.y() > 0 && b.y() < 0) return orientation(b, a, Vector3::UnitZ()) > 0;
   return false;
-}
-
-double difference_of_products(double a, double b, double c, double d) {
-  const double cd = c * d;
-  const double error = std::fma(-c, d, cd);
-  return std::fma(a, b, -cd) + error;
 }
 
 Crossing meridian_crossing(const Vector3& a, const Vector3& b, const Vector3& through) {

@@ -26,9 +26,6 @@ struct Crossing {
 /// Requires: a and b on different sides of it.
 Crossing meridian_crossing(const Vector3& a, const Vector3& b, const Vector3& through);
 
-/// ab − cd, to one and a half units in the last place.  Kahan's; proof: Jeannerod et al. 2013.
-double difference_of_products(double a, double b, double c, double d);
-
 /// u = θ/2π, v = ϕ/π of a ray. Ensures: strictly inside the rectangle, but u = 0 on the meridian;
 /// v = 0 or 1 at ±z.
 ChartPoint chart_point(const Vector3& ray);

@@ -7,6 +7,7 @@
 
 #include "chart/longitude.h"
 #include "elementary.h"
+#include "sphere/difference_of_products.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/orientation.h"
 

@@ -1,19 +1,36 @@
 #include "sphere/solid_angle.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 
+#include "sphere/difference_of_products.h"
 #include "sphparam/sphere/orientation.h"
 
 namespace sphparam {
 namespace {
 
-/// Of a triangle of next to half the sphere rounding would decide between 2π and −2π: the exact
-/// sign does.
-double surely_signed_solid_angle(const Vector3& a, const Vector3& b, const Vector3& c) {
-  constexpr double rounding = 1e-14;  // of the sine
+/// By its angles (Girard), which are sure where two corners are nearly opposite and where all three
+/// are near one great circle; the sign is the exact one.
+double solid_angle_by_angles(const Vector3& a, const Vector3& b, const Vector3& c) {
+  const std::array<Vector3, 3> rays = {a, b, c};
+  const std::array<Vector3, 3> crosses = {near_cross(b, c), near_cross(c, a), near_cross(a, b)};
+  const auto least = std::ranges::min_element(crosses, {}, &Vector3::squaredNorm) - crosses.begin();
+  const double volume = std::abs(rays[least].dot(crosses[least]));
+  double sum = -std::numbers::pi;
+  for (int k = 0; k < 3; ++k)
+    sum += elementary::atan2(volume, -crosses[(k + 1) % 3].dot(crosses[(k + 2) % 3]));
+  return orientation(a, b, c) * sum;
+}
+
+/// Where sine and cosine are both next to nothing, or the sine's sign decides between 2π and −2π,
+/// rounding would have the word.
+double sure_solid_angle(const Vector3& a, const Vector3& b, const Vector3& c) {
+  constexpr double unsure = 1e-3;
   const auto [sine, cosine] = half_solid_angle_of(a, b, c);
-  if (cosine >= 0 || std::abs(sine) > rounding) return 2 * elementary::atan2(sine, cosine);
-  return 2 * elementary::atan2(orientation(a, b, c) * std::abs(sine), cosine);
+  if (cosine < unsure && std::abs(sine) < unsure) return solid_angle_by_angles(a, b, c);
+  return 2 * elementary::atan2(sine, cosine);
 }
 
 }  // namespace
@@ -21,9 +38,9 @@ double surely_signed_solid_angle(const Vector3& a, const Vector3& b, const Vecto
 VectorX vertex_solid_angles(const Topology& topology, const SphereMap& map) {
   VectorX shares = VectorX::Zero(topology.vertex_count());
   for (Face f = 0; f < topology.face_count(); ++f) {
-    const double angle = surely_signed_solid_angle(map.point(topology.vertex(f, 0)),
-                                                   map.point(topology.vertex(f, 1)),
-                                                   map.point(topology.vertex(f, 2)));
+    const double angle =
+        sure_solid_angle(map.point(topology.vertex(f, 0)), map.point(topology.vertex(f, 1)),
+                         map.point(topology.vertex(f, 2)));
     for (int k = 0; k < 3; ++k) shares[topology.vertex(f, k)] += angle / 3;
   }
   return shares;
