@@ -524,3 +524,106 @@ TEST_CASE("loop_file: loops are closed lines in OBJ and PLY, and have no other n
       ply.ends_with("\nend_header\n0 0 0\n1 0 0\n0 0.1 0\n0 0 2\n1 0 2\n0 1 2\n"
                     "0 1 1 0\n1 2 1 0\n2 0 1 0\n3 4 2 1\n4 5 2 1\n5 3 2 1\n"));
 }
+
+namespace {
+
+/// With normals of vertices, corners and faces: the directions of their vertices, times `side`.
+MeshFile with_normals(const TriangleMesh& mesh, double side) {
+  MeshFile file;
+  file.mesh = mesh;
+  for (const auto& [name, axis] : {std::pair("nx", 0), std::pair("ny", 1), std::pair("nz", 2)}) {
+    Property of_vertices{name, ScalarType::Float32, {}}, of_faces = of_vertices;
+    for (Vertex v = 0; v < mesh.vertex_count(); ++v)
+      of_vertices.values.push_back(side * mesh.positions(v, axis));
+    for (Face f = 0; f < mesh.face_count(); ++f)
+      of_faces.values.push_back(side * mesh.positions(mesh.triangles(f, 0), axis));
+    file.set_vertex_property(of_vertices);
+    file.set_face_property(of_faces);
+  }
+  file.corner_normals.emplace(mesh.triangles.size(), 3);
+  file.corner_tangents = CornerTangents::Zero(mesh.triangles.size(), 4);
+  for (Eigen::Index i = 0; i < mesh.triangles.size(); ++i) {
+    file.corner_normals->row(i) = side * mesh.positions.row(mesh.triangles.data()[i]);
+    file.corner_tangents->row(i) << 1, 0, 0, -1;
+  }
+  return file;
+}
+
+/// All normals are the directions of vertices, to the last bit.
+void check_outward(const MeshFile& file) {
+  const TriangleMesh& mesh = file.mesh;
+  for (const auto& [name, axis] : {std::pair("nx", 0), std::pair("ny", 1), std::pair("nz", 2)}) {
+    const auto& of_vertices = file.find_vertex_property(name)->values;
+    const auto& of_faces = file.find_face_property(name)->values;
+    for (Vertex v = 0; v < mesh.vertex_count(); ++v)
+      CHECK(of_vertices[static_cast<size_t>(v)] == mesh.positions(v, axis));
+    for (Face f = 0; f < mesh.face_count(); ++f)
+      CHECK(of_faces[static_cast<size_t>(f)] == mesh.positions(mesh.triangles(f, 0), axis));
+  }
+  for (Eigen::Index i = 0; i < mesh.triangles.size(); ++i)
+    CHECK(file.corner_normals->row(i) == mesh.positions.row(mesh.triangles.data()[i]));
+}
+
+void turn_over(TriangleMesh& mesh, Face f) {
+  std::swap(mesh.triangles(f, 1), mesh.triangles(f, 2));
+}
+
+}  // namespace
+
+TEST_CASE("repaired_file: normals turn over with their faces") {
+  TriangleMesh inward = icosphere(2);
+  inward.triangles.col(1).swap(inward.triangles.col(2));
+
+  SECTION("all of them") {
+    const MeshFile turned = repaired_file(with_normals(inward, -1), repair_mesh(inward));
+    check_outward(turned);
+    CHECK((turned.corner_tangents->col(3).array() == 1).all());
+    CHECK((turned.corner_tangents->col(0).array() == 1).all());
+  }
+  SECTION("with a hole that is filled") {
+    const TriangleMesh open = without_faces(inward, faces_at(inward, 5));
+    const RepairedMesh repaired = repair_mesh(open);
+    REQUIRE(repaired.inspection.volume > 0);
+    const MeshFile turned = repaired_file(with_normals(open, -1), repaired);
+    for (Eigen::Index i = 0; i < turned.mesh.triangles.size(); ++i) {
+      const Eigen::RowVector3d p = turned.mesh.positions.row(turned.mesh.triangles.data()[i]);
+      CHECK(turned.corner_normals->row(i).dot(p) > 0.7);
+    }
+  }
+  SECTION("not where they had been on that side alone") {
+    const MeshFile turned = repaired_file(with_normals(inward, 1), repair_mesh(inward));
+    check_outward(turned);
+    CHECK((turned.corner_tangents->col(3).array() == -1).all());
+  }
+  SECTION("those of one patch: a vertex of both kinds goes by its faces") {
+    TriangleMesh mixed = icosphere(2);
+    for (const Face f : {0, 1, 2, 3, 90}) turn_over(mixed, f);
+    MeshFile file = with_normals(mixed, 1);
+    file.corner_tangents->col(3).setOnes();
+    for (const Face f : {0, 1, 2, 3, 90}) {  // as a program does that takes them from the faces
+      file.corner_normals->middleRows<3>(3 * f) *= -1;
+      for (const char* name : {"nx", "ny", "nz"}) {
+        Property of_faces = *file.find_face_property(name);
+        of_faces.values[static_cast<size_t>(f)] *= -1;
+        file.set_face_property(of_faces);
+      }
+    }
+    for (const char* name : {"nx", "ny", "nz"}) {
+      Property normals = *file.find_vertex_property(name);
+      const int axis = name[1] - 'x';
+      for (const Face f : {0, 1, 2, 3, 90}) {
+        const Vertex v = mixed.triangles(f, 0);
+        normals.values[static_cast<size_t>(v)] = -mixed.positions(v, axis);
+      }
+      file.set_vertex_property(normals);
+    }
+    const RepairedMesh repaired = repair_mesh(mixed);
+    REQUIRE(repaired.actions.at(0).count == 5);
+    const MeshFile turned = repaired_file(file, repaired);
+    check_outward(turned);
+    for (Face f = 0; f < mixed.face_count(); ++f) {
+      const bool was_turned = f < 4 || f == 90;
+      CHECK((*turned.corner_tangents)(3 * f, 3) == (was_turned ? -1 : 1));
+    }
+  }
+}

@@ -6,6 +6,7 @@
 
 #include "io/attributes/corner_colours.h"
 #include "io/attributes/patched_texture.h"
+#include "io/attributes/turned_normals.h"
 #include "io/attributes/weightiest_label.h"
 #include "io/mesh_part.h"
 #include "sphparam/io/fillers.h"
@@ -219,6 +220,7 @@ MeshFile repaired_file(const MeshFile& file, const RepairedMesh& repaired) {
   gather_corner_colours(result, file, repaired);
   gather_corners(result.corner_tangents, repaired);
   make_unit(result.corner_tangents, repaired);
+  turn_normals(result, repaired);
   if (!repaired.fillers.empty()) mark_fillers(result, all_fillers(result, repaired));
   return result;
 }
