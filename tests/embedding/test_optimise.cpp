@@ -86,6 +86,24 @@ TEST_CASE("optimise: a folded map comes back as it was") {
   CHECK(r.report.steps == 0);
 }
 
+TEST_CASE(
+    "optimise: a map that winds twice about its poles, without a fold, comes back as it was") {
+  const TriangleMesh mesh = uv_sphere(24, 7);
+  const Topology topology(mesh);
+  SphereMap twice{mesh.positions};
+  for (Vertex v = 1; v + 1 < topology.vertex_count(); ++v) {
+    const double x = mesh.positions(v, 0), y = mesh.positions(v, 1), r = std::hypot(x, y);
+    twice.points.row(v) << (x * x - y * y) / r, 2 * x * y / r, mesh.positions(v, 2);
+  }
+  const RestTriangles source = measure_source(mesh);
+  const Optimisation r = optimise(topology, source, twice);
+  CHECK(r.map.points == twice.points);
+  CHECK(std::isfinite(r.report.energy_before));
+  CHECK(r.report.energy_after == r.report.energy_before);
+  CHECK(r.report.steps == 0);
+  CHECK_FALSE(r.report.converged);
+}
+
 TEST_CASE("optimise: every vertex pinned, nothing moves") {
   const Stretched s(2);
   std::vector<Vertex> all;

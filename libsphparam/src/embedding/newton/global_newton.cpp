@@ -235,6 +235,8 @@ bool GlobalNewton::can_move() const {
   return std::find(pinned_.begin(), pinned_.end(), 0) != pinned_.end();
 }
 
+bool GlobalNewton::covers_once() const { return blocks_.covering(image_, threads_) <= once; }
+
 void GlobalNewton::make_room() const {
   if (hessian_.rows() >= least_trimmed_vertices) give_back_freed_memory();
 }

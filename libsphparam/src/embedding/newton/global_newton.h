@@ -45,6 +45,8 @@ class GlobalNewton {
 
   /// Is there a vertex that is not pinned?
   bool can_move() const;
+  /// Is the sphere covered no more than once? Requires: a finite energy. Cost: a pass.
+  bool covers_once() const;
 
   /// One Newton step, the system solved as long as iterations bring `least_share` (see
   /// `solve_by_conjugate_gradients`), with line search; solved anew, up to six times, where

@@ -5,7 +5,8 @@
 
 namespace sphparam {
 
-/// A f of an isometry, summed over the source: what no map of small triangles gets below.
+/// A f of an isometry, summed over the source: what no map of small triangles gets below, but where
+/// pressure makes triangles smaller or larger than they are.
 double isometric_energy(const RestTriangles& source, const DistortionEnergy& energy,
                         const FillerMarks& pressed);
 

@@ -36,7 +36,7 @@ void minimise(GlobalNewton& newton, double isometric, const OptimiseOptions& opt
   newton.ask_with([&] { report(options.progress, "optimisation", done); });
   r.converged = false;
   r.energy_before = r.energy_after = newton.energy(options.energy);
-  if (!std::isfinite(r.energy_before) || !newton.can_move()) return;
+  if (!std::isfinite(r.energy_before) || !newton.can_move() || !newton.covers_once()) return;
   bool recentring = options.energy.kind == EnergyKind::AngleAndArea &&
                     options.energy.lambda < loose_lambda && options.pinned.empty();
   for (int n = 0; n < options.max_steps && !r.converged; ++n) {

@@ -64,7 +64,7 @@ struct BalancedMap {
   SphereMap map;
   double lambda;  // it is optimal for; `greatest_lambda` where areas were made even without energy
   double area_error;      // its mean |log2 area ratio|, weighted by source area
-  OptimiseReport report;  // energies at that λ; steps of all
+  OptimiseReport report;  // `energy_after` at that λ; steps of all
   RestTriangles aim;      // with areas corrected, what it is optimal for; empty: for the source
 };
 
