@@ -211,11 +211,20 @@ bad_options = {
     "pins: a number": (dict(pins={1: 2}), ValueError, r"pins\[1\]: two angles .* not 2"),
     "pins: names of angles": (dict(pins={1: {"theta": 0, "phi": 1}}), ValueError, "two angles"),
     "pins: texts": (dict(pins={1: "12"}), ValueError, "two angles"),
+    "pins: 2⁷⁰": (dict(pins={2**70: (0, 1)}), ValueError, f"pins: no mesh has a vertex {2**70}"),
+    "pins: 2⁵³ + 1": (dict(pins={2**53 + 1: (0, 1)}), ValueError, f"vertex {2**53 + 1}"),
+    "threads: two of them": (dict(threads=np.array([1, 2])), TypeError, "threads: a whole number"),
+    "threads: true": (dict(threads=np.True_), TypeError, "threads: a whole number"),
+    "balance: less than nothing": (dict(balance=-1), ValueError, r"weight \(lambda\) is -1"),
+    "balance: beyond doubles": (dict(balance=2**2000), TypeError, "balance: a number"),
+    "align: too few": (dict(align=V[:3]), ValueError, "^align: "),
+    "centre: two numbers": (dict(method="radial", centre=(0, 1)), ValueError, "centre: three numbers are needed, not 2"),
     "progress": (dict(progress="yes"), TypeError, "progress"),
     "repair": (dict(repair="holes"), TypeError, "dict"),
     "repair: no such option": (dict(repair=dict(hole=3)), TypeError, "largest_hole"),
     "repair: out of its domain": (dict(repair=dict(largest_hole=1)), ValueError, "largest_hole"),
     "repair: of no such component": (dict(repair=dict(component=7)), ValueError, "component"),
+    "repair: beyond": (dict(repair=dict(largest_hole=BIG)), ValueError, f"largest_hole: .*{BIG}"),
     "repair: of a wrong type": (dict(repair=dict(largest_hole="many")), TypeError, "largest_hole"),
     "values: too few": (dict(values={"a": np.zeros(5)}), ValueError, "6 rows"),
     "values: NaN": (dict(values={"a": np.full(6, np.nan)}), ValueError, "finite"),
@@ -223,6 +232,8 @@ bad_options = {
     "values: 2⁴⁰": (dict(values={"a": np.full(6, BIG)}), ValueError, "32 bits"),
     "values: three axes": (dict(values={"a": np.zeros((6, 2, 2))}), ValueError, "6×2×2"),
     "values: a blank in the name": (dict(values={"a b": np.zeros(6)}), ValueError, "blanks"),
+    "values: a zero byte in the name": (dict(values={"a\0b": np.zeros(6)}), ValueError, r"values\['a\\x00b'\]: a name"),
+    "values: half a letter in the name": (dict(values={"a\ud800": np.zeros(6)}), ValueError, "half a letter"),
     "values: a name of the map's": (dict(values={"sx": np.zeros(6)}), ValueError, "own"),
     "values: a number for a name": (dict(values={3: np.zeros(6)}), ValueError, "name"),
     "values: no number a row": (dict(values={"a": np.zeros((6, 0))}), ValueError, r"values\['a'\]: rows without"),
@@ -283,6 +294,8 @@ bad_uses = {
     "match: no weight of no features": (lambda m: sp.match(m, m, (), feature_weight=np.nan), ValueError, "feature_weight"),
     "export: a number": (lambda m: m.export("a.glb", texture=3), ValueError, "not a single number"),
     "bake: above no body": (lambda m: m.bake("elevation", size=16), ValueError, r"\(body=\)$"),
+    "bake: rays beyond": (lambda m: m.bake("ao", size=16, rays=BIG), ValueError, f"rays: beyond what it may be: {BIG}"),
+    "bake: a number for a word": (lambda m: m.bake("ao", size=16, convention=3), TypeError, "convention: this cannot be a int"),
     "bake: no such field": (lambda m: m.bake("normal"), ValueError, "normal"),
     "bake: odd size": (lambda m: m.bake("position", size=5), ValueError, "even"),
     "bake: a size beyond": (lambda m: m.bake("position", size=10**6), ValueError, "65536"),
@@ -328,6 +341,31 @@ bad_uses = {
     "with_sphere: NaN": (lambda m: sp.with_sphere((V, F), V * np.nan), ValueError, "finite"),
     "measure: nothing": (lambda m: sp.measure((V, F[:0]), m), ValueError, "triangle|face"),
     "measure: no samples": (lambda m: sp.measure(m, m, samples=0), ValueError, "sample"),
+    # What is no word, no list, no place: named, not left to the module below.
+    "remesh: no word": (lambda m: m.remesh("ico:1", sample=3), TypeError, "sample: a text"),
+    "remesh: no word of layout": (lambda m: m.remesh("ico:1", uv=None), TypeError, "uv: a text"),
+    "remesh: half a letter": (lambda m: m.remesh("ico:\ud800"), ValueError, r"grid: half a letter .*ud800"),
+    "remesh: no names": (lambda m: m.remesh("ico:1", transfer=None), TypeError, "transfer: a list of names"),
+    "remesh: half a name": (lambda m: m.remesh("ico:1", transfer=["\ud800"]), ValueError, "transfer: half a letter"),
+    "fit: no word": (lambda m: m.fit("ico:1", scheme=3), TypeError, "scheme: a text"),
+    "spharm: no names": (lambda m: m.spharm(2, values=3), TypeError, "values: a list of names"),
+    "paint: no word": (lambda m: m.paint(np.zeros((4, 8, 3)), convention=3), TypeError, "convention: a text"),
+    "paint_texture: no word": (lambda m: m.paint_texture(np.zeros((4, 8)), convention=None), TypeError, "convention: a text"),
+    "match: a vertex beyond": (lambda m: sp.match(m, m, np.array([[2**63, 0]], np.uint64)), ValueError, f"landmarks: .*vertex {2**63}"),
+    "morph: no word": (lambda m: sp.match(m, m, ()).morph("a.glb", place=3), TypeError, "place: a text"),
+    "morph: no size": (lambda m: sp.match(m, m, ()).morph("a.glb", image_size="x"), TypeError, "image_size: a whole number"),
+    "group: no list": (lambda m: sp.group(m), TypeError, "shapes: a list of maps .* not SphereMap"),
+    "export: no list": (lambda m: m.export("a.glb", levels=m), TypeError, "levels: a list of maps .* not SphereMap"),
+    "export: no size": (lambda m: m.export("a.glb", image_size=1), ValueError, "^image_size is 1"),
+    "picture: from nowhere": (lambda m: m.picture(eye=(0, 0, 0)), ValueError, "eye: 0, 0, 0 is no direction"),
+    "picture: from two numbers": (lambda m: m.picture(eye=(1, 2)), ValueError, "eye: three numbers are needed, not 2"),
+    "picture: from no number": (lambda m: m.picture(eye=(np.nan, 0, 0)), ValueError, "eye: three finite numbers"),
+    "bake: two numbers": (lambda m: m.bake("radius", size=16, centre=(0, 0)), ValueError, "centre: three numbers are needed, not 2"),
+    "bake: no unit": (lambda m: m.bake("elevation", size=16, body="vesta", unit=[]), TypeError, "unit: a text"),
+    "bake_files: no dict": (lambda m: m.bake_files("ao"), TypeError, "images: a dict is needed, .* not str"),
+    "wrap: no number": (lambda m: sp.wrap(m, voxel="fine"), TypeError, "voxel: a number"),
+    "wrap: no distance": (lambda m: sp.wrap(m, distance="far"), TypeError, "distance: a number"),
+    "asset: no number": (lambda m: sp.asset(__file__, least_kept="all"), TypeError, "least_kept: a number"),
     "a map without a mesh": (lambda m: sp.SphereMap(), TypeError, "sphparam.map"),
 }
 
@@ -339,6 +377,59 @@ def test_a_use_that_makes_no_sense_is_refused(case, mapped, tmp_path, monkeypatc
     with pytest.raises(error, match=words):
         use(mapped)
     assert list(tmp_path.iterdir()) == []  # nothing half written
+
+
+def test_a_fit_is_told_what_it_cannot_make(mapped, tmp_path):
+    fit = mapped.fit("ico:1")
+    for use, error, words in (
+        (lambda: fit.displace(tmp_path / "d.exr", layout=3), TypeError, "layout: a text"),
+        (lambda: fit.displace(tmp_path / "d.exr", depth=None), TypeError, "depth: a text"),
+        (lambda: fit.displace(tmp_path / "d.exr", size=64), TypeError, "size: a list of two numbers, .* not int"),
+        (lambda: fit.displace(tmp_path / "d.exr", size=(64, 32, 1)), ValueError, "size: .* not 3 numbers"),
+        (lambda: fit.textured_control(size=(BIG, 1)), ValueError, f"size: .* not {BIG}"),
+        (lambda: fit.fine_mesh(2**70), ValueError, f"triangles: .* not {2**70}"),
+    ):
+        with pytest.raises(error, match=words):
+            use()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_coefficients_of_the_users_own_are_evaluated_or_refused(mapped):
+    shape = mapped.spharm(2)
+    there = shape(V)
+    shape.coefficients = shape.coefficients.astype(">f8")
+    assert (shape(V) == there).all()
+    for wrong, error in ((np.zeros(9), ValueError), (np.zeros((9, 3), complex), TypeError), (np.zeros((8, 3)), ValueError)):
+        shape.coefficients = wrong
+        with pytest.raises(error, match="coefficients"):
+            shape(V)
+
+
+def test_levels_end_where_there_are_no_more(mapped):
+    assert len(mapped.levels(2**40)) == len(mapped.levels(3))
+
+
+def test_a_mesh_of_nothing_may_carry_nothing():
+    found = sp.Mesh(np.zeros((0, 3)), np.zeros((0, 3), int), values={"a": np.zeros(0), "b": np.zeros((0, 2))})
+    assert found.values["a"].shape == (0,) and found.values["b"].shape == (0, 2)
+
+
+def test_a_file_is_verified_with_the_sphere_that_is_meant(mapped, tmp_path):
+    mapped.save(tmp_path / "a.sph.ply")
+    sp.write(tmp_path / "inside.off", mapped.points * [1, 1, -1], mapped.faces)
+    with pytest.raises(TypeError, match="faces: the file has its own; points=FILE is its sphere"):
+        sp.verify(tmp_path / "a.sph.ply", tmp_path / "inside.off")
+    assert sp.verify(tmp_path / "a.sph.ply", points=tmp_path / "inside.off").reversed
+    with pytest.raises(TypeError, match=r"points: .* not ndarray; verify\(read\(path\), points="):
+        sp.verify(tmp_path / "a.sph.ply", points=mapped.points)
+
+
+@pytest.mark.parametrize("pairs", [dict, list, iter, lambda images: zip(images, images.values())])
+def test_images_are_baked_of_whatever_makes_a_dict(pairs, mapped, tmp_path):
+    images = {"position": tmp_path / "p.exr", "mask": tmp_path / "m.png"}
+    given = images if pairs is dict else pairs(images.items() if pairs in (list, iter) else images)
+    assert [file.field for file in mapped.bake_files(given, size=16)] == ["position", "mask"]
+    assert {path.name for path in tmp_path.iterdir()} == {"p.exr", "m.png"}
 
 
 def test_a_refusal_lists_what_is_wrong_and_what_would_help():

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import warnings
-from typing import TYPE_CHECKING, Any, Optional
+import operator
+from typing import TYPE_CHECKING, Any, List, Optional, Tuple
 
 from ._numpy import np
 
@@ -34,10 +34,8 @@ def numbers(thing: Any, name: str, rounded_by: str = "float") -> Array:
         raise TypeError(f"{name}: an array is needed, not {type(thing).__name__}")
     _require_unmasked(thing, name)
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("error")
-            array = np.asarray(thing)
-    except (ValueError, Warning) as error:
+        array = np.asarray(thing)  # what it warns of is the user's to hear: filters are those of all threads
+    except ValueError as error:
         raise ValueError(f"{name}: no array can be made of it: {error}") from None
     if array.dtype.kind not in "fiu":
         raise TypeError(f"{name}: numbers are needed, not {array.dtype}")
@@ -107,11 +105,28 @@ def triangles(thing: Any, name: str = "faces") -> Array:
 
 def whole(number: Any, name: str, least: int, most: Optional[int] = None) -> int:
     """A whole number from ``least`` to ``most``."""
-    if isinstance(number, bool) or not hasattr(number, "__index__"):
-        raise TypeError(f"{name}: a whole number is needed, not {number!r}")
-    if number < least or (most is not None and number > most):
-        raise ValueError(f"{name}: {least} to {most} is needed, not {number}" if most else f"{name}: from {least}, not {number}")
-    return int(number)
+    found = _index(number, name, "a whole number is needed")
+    if found < least or (most is not None and found > most):
+        raise ValueError(f"{name}: {least} to {most} is needed, not {found}" if most else f"{name}: from {least}, not {found}")
+    return found
+
+
+def vertex(number: Any, name: str) -> int:
+    """A number of a vertex; whether it is there is told later."""
+    found = _index(number, name, "a vertex is a whole number")
+    if not 0 <= found < 2**31:
+        raise ValueError(f"{name}: no mesh has a vertex {found}")
+    return found
+
+
+def _index(number: Any, name: str, wanted: str) -> int:
+    """Of Python's whole numbers and NumPy's, of which an array may be one."""
+    try:
+        if not isinstance(number, (bool, np.bool_)):
+            return operator.index(number)
+    except TypeError:
+        pass
+    raise TypeError(f"{name}: {wanted}, not {number!r}")
 
 
 def flag(thing: Any, name: str) -> bool:
@@ -126,7 +141,7 @@ def real(thing: Any, name: str) -> float:
     try:
         if not isinstance(thing, (str, bytes)):
             return float(thing)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         pass
     raise TypeError(f"{name}: a number is needed, not {thing!r}")
 
@@ -140,4 +155,35 @@ def text(thing: Any, name: str) -> str:
     """A text, and nothing that could be made one."""
     if not isinstance(thing, str):
         raise TypeError(f"{name}: a text is needed, not {type(thing).__name__}")
+    if not thing.isascii() and thing.encode(errors="ignore").decode() != thing:
+        raise ValueError(f"{name}: half a letter is no text: {thing!a}")
     return thing
+
+
+def listed(things: Any, name: str, what: str) -> List[Any]:
+    """Several things; a single one is none of these."""
+    try:
+        return list(things)
+    except TypeError:
+        raise TypeError(f"{name}: a list of {what} is needed, not {type(things).__name__}") from None
+
+
+def three(thing: Any, name: str) -> Tuple[float, float, float]:
+    """Three finite numbers."""
+    array = numbers(thing, name)
+    if array.shape != (3,):
+        shape = "×".join(str(n) for n in array.shape) or "a single one"
+        raise ValueError(f"{name}: three numbers are needed, not {shape}")
+    if not np.isfinite(array).all():
+        raise ValueError(f"{name}: three finite numbers are needed, not {', '.join(map(str, array))}")
+    x, y, z = array.tolist()
+    return float(x), float(y), float(z)
+
+
+def width_and_height(size: Any) -> Tuple[int, int]:
+    """Texels both ways; how many there may be is told later."""
+    sides = listed(size, "size", "two numbers, width and height,")
+    if len(sides) != 2:
+        raise ValueError(f"size: width and height are needed, not {len(sides)} numbers")
+    width, height = (whole(side, "size", 1, 2**31 - 1) for side in sides)
+    return width, height

@@ -8,6 +8,9 @@ from typing import Any, List, Mapping, NamedTuple, Optional, Sequence, Tuple
 from ._attributes import document
 
 _typed_here = {
+    "energy.lambda is": "weight (lambda) is",
+    "image_width is": "image_size is",
+    "align_to: ": "align: ",
     "say --alike": "say alike=True",
     "give --landmarks": "give landmarks",
     "(--unit)": "(unit=)",

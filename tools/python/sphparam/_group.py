@@ -104,7 +104,7 @@ def group(
 
     Warnings tell what is to be looked at, with the number of the shape.
     """
-    maps = [mapped_of(shape, f"shapes[{i}]") for i, shape in enumerate(shapes)]
+    maps = [mapped_of(shape, f"shapes[{i}]") for i, shape in enumerate(_arrays.listed(shapes, "shapes", "maps"))]
     if not maps:
         raise ValueError("shapes: there is none")
     reference = maps[0] if template is None else mapped_of(template, "template")

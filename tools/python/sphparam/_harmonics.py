@@ -48,7 +48,10 @@ class Harmonics:
     def __call__(self, directions: Any, *, threads: int = 0) -> Floats:
         """(n, k) what the harmonics have in directions, (n, 3) of any length but 0."""
         rows = _arrays.directions(directions)
-        return _core.evaluate(np.asarray(self.coefficients), rows, _arrays.threads(threads))
+        table = _arrays.numbers(self.coefficients, "coefficients").astype(np.float64)
+        if table.ndim != 2:
+            raise ValueError(f"coefficients: ((L + 1)², k) are needed, not {'×'.join(map(str, table.shape))}")
+        return _core.evaluate(table, rows, _arrays.threads(threads))
 
     def __repr__(self) -> str:
         return f"<sphparam.Harmonics: degree {self.degree}, {', '.join(self.functions)}, rms {self.rms:.3g}>"

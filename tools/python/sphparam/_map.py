@@ -193,6 +193,10 @@ def verify(mesh: Any, faces: Any = None, points: Any = None, *, threads: int = 0
     """
     count = _arrays.threads(threads)
     if isinstance(mesh, (str, os.PathLike)):
+        if faces is not None:
+            raise TypeError("faces: the file has its own; points=FILE is its sphere")
+        if points is not None and not isinstance(points, (str, os.PathLike)):
+            raise TypeError(f"points: of a file its sphere is one too, not {type(points).__name__}; verify(read(path), points=…) takes arrays")
         sphere = existing(points) if points is not None else ""
         found = _core.verify_file(existing(mesh), sphere, count)
         tell(found.pop("warnings"))

@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     from ._subdivision import SubdivisionFit
 
 
+_most_levels = 64  # with a quarter each there are none behind these
+
+
 class MapGrids(MapFacts):
     """To other meshes on the same sphere."""
 
@@ -54,10 +57,10 @@ class MapGrids(MapFacts):
         """
         from ._sphere_map import SphereMap
 
-        names = self._transferred(transfer)
+        names, mode, layout = self._transferred(transfer), _arrays.text(sample, "sample"), _arrays.text(uv, "uv")
         with told(progress) as report:
             made = _core.remesh(
-                self._mapped, _grid(grid), sample, names, _arrays.flag(adaptive, "adaptive"), uv, _arrays.threads(threads), report
+                self._mapped, _grid(grid), mode, names, _arrays.flag(adaptive, "adaptive"), layout, _arrays.threads(threads), report
             )
         return SphereMap._of(made)
 
@@ -65,9 +68,9 @@ class MapGrids(MapFacts):
         """Levels of detail on icosahedra, the first with a quarter of the vertices, and so on; fewer at 12."""
         from ._sphere_map import SphereMap
 
-        _arrays.whole(count, "count", 0)
+        wanted = min(_arrays.whole(count, "count", 0), _most_levels)
         with told(progress) as report:
-            made = _core.levels(self._mapped, count, _arrays.threads(threads), report)
+            made = _core.levels(self._mapped, wanted, _arrays.threads(threads), report)
         return [SphereMap._of(level) for level in made]
 
     def fit(
@@ -86,9 +89,9 @@ class MapGrids(MapFacts):
         """
         from ._subdivision import SubdivisionFit
 
-        names = self._transferred(transfer)
+        names, surface = self._transferred(transfer), _arrays.text(scheme, "scheme")
         with told(progress) as report:
-            made = _core.fit(self._mapped, _grid(grid), scheme, names, _arrays.threads(threads), report)
+            made = _core.fit(self._mapped, _grid(grid), surface, names, _arrays.threads(threads), report)
         return SubdivisionFit._of(made)
 
     def spharm(
@@ -137,7 +140,7 @@ class MapGrids(MapFacts):
 
 
 def _names(names: Union[str, Iterable[str]], what: str) -> List[str]:
-    return [_arrays.text(name, what) for name in ([names] if isinstance(names, str) else names)]
+    return [_arrays.text(name, what) for name in ([names] if isinstance(names, str) else _arrays.listed(names, what, "names"))]
 
 
 def _grid(grid: Any) -> Union[str, _core.Mapped]:
@@ -145,7 +148,7 @@ def _grid(grid: Any) -> Union[str, _core.Mapped]:
         raise TypeError(f"grid: 'ico:{grid}', another one of {_patterns()}, or a map, not {grid!r}")
     if isinstance(grid, str) and not grid.startswith(("ico:", "octa:", "cube:", "uv:", "healpix:")):
         raise ValueError(f"grid: {_patterns()}, or a map (remesh(other), where the program has like:), not {grid!r}")
-    return grid if isinstance(grid, str) else mapped_of(grid, "grid")
+    return _arrays.text(grid, "grid") if isinstance(grid, str) else mapped_of(grid, "grid")
 
 
 def _patterns() -> str:

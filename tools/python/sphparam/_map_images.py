@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Dict, Mapping, Optional, Tuple
+from typing import TYPE_CHECKING, Any, Dict, List, Mapping, Optional, Tuple
 
 from . import _arrays, _core
 from ._figures import BakedFile
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 _baking_options = (
     "size", "samples", "depth", "mip", "filter", "wrap", "heat", "normal_y_down", "height_radial", "rays",
-    "max_ray_distance", "refine_poles", "body", "positive_west", "centre", "threads",
+    "max_ray_distance", "refine_poles", "body", "positive_west", "threads",
 )  # fmt: skip
 _units = {"m": 1.0, "km": 1000.0}
 
@@ -37,9 +37,11 @@ def _baking(given: Dict[str, Any]) -> Dict[str, Any]:
     options["threads"] = _arrays.threads(given["threads"])
     options["convention"] = given["convention"] or ("gis" if given["body"] else "sphparam")
     options["interpolation"] = given["interpolation"] or ("sphere" if given["body"] else "uv")
-    if given["unit"] not in _units:
+    if _arrays.text(given["unit"], "unit") not in _units:
         raise ValueError(f"unit: 'm' or 'km', not {given['unit']!r}")
     options["unit"] = _units[given["unit"]]
+    if given["centre"] is not None:
+        options["centre"] = _arrays.three(given["centre"], "centre")
     if given["texture"] is not None:
         options["texture"] = existing(given["texture"])
     if given["target"] is not None:
@@ -52,6 +54,15 @@ def _baking(given: Dict[str, Any]) -> Dict[str, Any]:
 def _taken_once(surface: Optional[Any]) -> Optional[Mesh]:
     """So that what it has besides is told once."""
     return None if surface is None else any_mesh(surface, None)
+
+
+def _wanted(images: Any) -> List[Tuple[str, str]]:
+    """Fields and paths, of a dict or what makes one."""
+    try:
+        wanted = dict(images)
+    except (TypeError, ValueError):
+        raise TypeError(f"images: a dict is needed, {{field: path}}, not {type(images).__name__}") from None
+    return [(_arrays.text(name, "images"), path_of(path)) for name, path in wanted.items()]
 
 
 def _require_field(name: str) -> None:
@@ -218,9 +229,9 @@ class MapImages(MapFacts):
         """
         surface = _taken_once(surface)
         options = _baking(locals())
-        for name in images:
+        pairs = _wanted(images)
+        for name, _ in pairs:
             self._require_scalar(name, surface)
-        pairs = [(_arrays.text(name, "images"), path_of(path)) for name, path in dict(images).items()]
         with told(progress) as report:
             *rows, warned = _core.bake_to_files(self._mapped, pairs, options, report)
         tell(warned)
@@ -235,6 +246,7 @@ class MapImages(MapFacts):
         """
         from ._images import as_file
 
+        _arrays.text(convention, "convention")
         with as_file(image, "image", convention) as path, told(progress) as report:
             colours, warned = _core.paint(self._mapped, path, convention, _arrays.threads(threads), report)
         tell(warned)
@@ -259,6 +271,7 @@ class MapImages(MapFacts):
         from ._images import as_file
 
         size, padding = _arrays.whole(size, "size", 1, 65536), _arrays.whole(padding, "padding", 0, 254)
+        _arrays.text(convention, "convention")
         with as_file(image, "image", convention) as path, told(progress) as report:
             table, warned = _core.paint_texture(
                 self._mapped, path, convention, size, padding, _arrays.threads(threads), report
@@ -296,5 +309,7 @@ class MapImages(MapFacts):
             occlusion=occlusion, legend=legend, transparent=transparent, threads=_arrays.threads(threads),
         )  # fmt: skip
         if eye is not None:
-            options["eye"] = tuple(float(x) for x in eye)
+            options["eye"] = _arrays.three(eye, "eye")
+            if not any(options["eye"]):
+                raise ValueError("eye: 0, 0, 0 is no direction")
         return _core.draw(self._mapped, options)

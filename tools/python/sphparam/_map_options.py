@@ -27,22 +27,13 @@ def _pins(pins: Any) -> List[Tuple[float, float, float]]:
     except (TypeError, ValueError):
         raise TypeError(f"pins: a dict is needed, {{vertex: (theta, phi)}}, not {type(pins).__name__}") from None
     rows = []
-    for vertex, place in places.items():
-        if not hasattr(vertex, "__index__") or isinstance(vertex, bool):
-            raise TypeError(f"pins: a vertex is a whole number, not {vertex!r}")
+    for number, place in places.items():
+        vertex = _arrays.vertex(number, "pins")
         theta, phi = _angles(place, f"pins[{vertex}]")
         if not (np.isfinite(theta) and 0 <= phi <= np.pi):
             raise ValueError(f"pins[{vertex}]: theta is finite and phi from 0 to π, not {theta}, {phi}")
         rows.append((float(vertex), theta, phi))
     return rows
-
-
-def _vertex_number(thing: Any, name: str) -> int:
-    if not hasattr(thing, "__index__") or isinstance(thing, bool):
-        raise TypeError(f"{name}: a vertex is a whole number, not {thing!r}")
-    if not 0 <= int(thing) < 2**31:
-        raise ValueError(f"{name}: no mesh has a vertex {int(thing)}")
-    return int(thing)
 
 
 def _weight(balance: Union[str, float], weight: Optional[float]) -> Dict[str, Any]:
@@ -61,7 +52,7 @@ def _poles(poles: Any) -> Dict[str, Any]:
             north, south = poles
         except (TypeError, ValueError):
             raise ValueError(f"poles: 'auto', 'none', 'up' or two vertices, not {poles!r}") from None
-        return {"poles": (_vertex_number(north, "poles"), _vertex_number(south, "poles"))}
+        return {"poles": (_arrays.vertex(north, "poles"), _arrays.vertex(south, "poles"))}
     if poles not in ("auto", "none", "up"):
         raise ValueError(f"poles: 'auto', 'none', 'up' or two vertices, not {poles!r}")
     return {"automatic_poles": poles != "none"}
@@ -139,11 +130,11 @@ def requested(
     pinned = [] if pins is None else _pins(pins)
     options.update(_weight(balance, weight), **_poles(poles), **_stance(up, front, poles, pinned, align, method))
     if meridian is not None:
-        options["meridian"] = _vertex_number(meridian, "meridian")
+        options["meridian"] = _arrays.vertex(meridian, "meridian")
     if pinned:
         options["pins"] = pinned
     if centre is not None:
-        options["centre"] = tuple(float(x) for x in _arrays.finite_points([centre], "centre")[0])
+        options["centre"] = _arrays.three(centre, "centre")
     if align is not None:
         options.update(_alignment(align))
     if paper is not None:

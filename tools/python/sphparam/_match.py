@@ -105,13 +105,13 @@ class SurfaceMap:
         image_size
             Of images that are made here, as the checker of surfaces without colours.
         """
-        name = path_of(path)
+        name, size = path_of(path), _arrays.whole(image_size, "image_size", 16, 16384)
         if not name.lower().endswith(".glb"):
             raise ValueError(f"path: a morph ends in .glb, not {name!r}")
         source, target = self.source._mapped, self.target._mapped
         with told(progress) as report:
             warned = _core.write_morph(
-                source, target, name, place, as_direction(up, "up"), as_direction(front, "front"), image_size,
+                source, target, name, _arrays.text(place, "place"), as_direction(up, "up"), as_direction(front, "front"), size,
                 _arrays.threads(threads), report,  # fmt: skip
             )
         tell(self.source._not_exported(name, False))
@@ -133,6 +133,8 @@ def _pairs(landmarks: Any) -> List[Tuple[int, int]]:
     if rows.ndim != 2 or rows.shape[1] != 2:
         shape = "×".join(str(n) for n in rows.shape)
         raise ValueError(f"landmarks: two vertices a row are needed, source and target, #×2, not {shape}")
+    if rows.max() >= 2**31:
+        raise ValueError(f"landmarks: no mesh has a vertex {rows.max()}")
     return [(int(a), int(b)) for a, b in rows.tolist()]
 
 

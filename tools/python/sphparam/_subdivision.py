@@ -69,7 +69,7 @@ class SubdivisionFit:
 
     def fine_mesh(self, triangles: int = 100_000, *, threads: int = 0) -> Tuple[Floats, Ints]:
         """Vertices and faces of the smooth surface, in about so many triangles or more."""
-        least = _arrays.whole(triangles, "triangles", 1)
+        least = _arrays.whole(triangles, "triangles", 1, 2**62)
         return _core.fine_mesh(self._fitted, least, _arrays.threads(threads))
 
     def textured_control(self, *, size: Tuple[int, int] = (4096, 2048), threads: int = 0) -> SphereMap:
@@ -78,7 +78,7 @@ class SubdivisionFit:
         programs subdivide and displace."""
         from ._sphere_map import SphereMap
 
-        width, height = (_arrays.whole(number, "size", 1) for number in size)
+        width, height = _arrays.width_and_height(size)
         return SphereMap._of(_core.textured_control(self._fitted, width, height, _arrays.threads(threads)))
 
     def displace(
@@ -108,11 +108,12 @@ class SubdivisionFit:
             Also a mesh of surface and image together, read back: a ``.ply`` or ``.obj``, and its
             distance from the mesh.
         """
-        width, height = (_arrays.whole(number, "size", 1) for number in size)
+        width, height = _arrays.width_and_height(size)
         other = path_of(rebuilt) if rebuilt else ""
+        wanted = _arrays.text(layout, "layout"), _arrays.text(depth, "depth")
         count = _arrays.threads(threads)
         with told(progress) as report:
-            found = _core.displace(self._fitted, path_of(path), other, width, height, layout, depth, count, report)
+            found = _core.displace(self._fitted, path_of(path), other, width, height, *wanted, count, report)
         return Displacement(**found)
 
     def __repr__(self) -> str:

@@ -97,8 +97,9 @@ def _require_colours(array: Array, label: str) -> None:
 def columns(name: Any, thing: Any, count: int, what: str = "vertex") -> Rows:
     """An array of values, one row a vertex or face, as columns: name, PLY type, doubles."""
     label = f"values[{name!r}]"
-    if not isinstance(name, str) or not re.fullmatch(r"\S+", name):
+    if not isinstance(name, str) or not re.fullmatch(r"[^\s\x00-\x1f\x7f]+", name):
         raise ValueError(f"{label}: a name without blanks is needed")
+    _arrays.text(name, label)
     if name in _of_the_map:
         raise ValueError(f"{label}: the map's own names are {', '.join(sorted(_of_the_map))}")
     bare = _arrays.unmasked(thing, label)
@@ -109,17 +110,16 @@ def columns(name: Any, thing: Any, count: int, what: str = "vertex") -> Rows:
     if array.ndim == 2 and array.shape[1] == 0:
         raise ValueError(f"{label}: rows without a number")
     kind = _column_type(array, label)
-    doubles = array.astype(np.float64)
-    bad = np.flatnonzero(~np.isfinite(doubles.reshape(count, -1)).all(axis=1))
+    table = array.astype(np.float64).reshape(count, 1 if array.ndim == 1 else array.shape[1])
+    bad = np.flatnonzero(~np.isfinite(table).all(axis=1))
     if len(bad):
         raise ValueError(
             f"{label}: {len(bad)} rows are no finite numbers, the first is {bad[0]}; a mesh keeps none, "
             "but a map's resample takes NaN"
         )
-    names = _column_names(name, 1 if array.ndim == 1 else array.shape[1])
+    names = _column_names(name, table.shape[1])
     if names[0] in _columns["color"]:
         _require_colours(array, label)
-    table = doubles.reshape(count, len(names))
     return [(n, kind, np.ascontiguousarray(table[:, k])) for k, n in enumerate(names)]
 
 

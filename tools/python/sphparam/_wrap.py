@@ -78,14 +78,16 @@ def wrap(
     ValueError
         for a voxel that is too small for the box (100 million points at most), or larger than ``distance``.
     """
-    if voxel > 0 and resolution > 0:
+    finest, away = _arrays.real(voxel, "voxel"), _arrays.real(distance, "distance")
+    count = _arrays.whole(resolution, "resolution", 0, 100_000)
+    if finest > 0 and count > 0:
         raise ValueError("voxel and resolution contradict each other: both say how large a voxel is")
     soup = any_mesh(mesh, faces)
     soup._require_sound()
     options = {
-        "voxel": float(voxel),
-        "resolution": _arrays.whole(resolution, "resolution", 0, 100_000),
-        "distance": float(distance),
+        "voxel": finest,
+        "resolution": count,
+        "distance": away,
         "largest": _arrays.flag(largest, "largest"),
         "triangles": _arrays.whole(triangles, "triangles", 0, 100_000_000),
         "threads": _arrays.threads(threads),
