@@ -6,6 +6,7 @@ import subprocess
 import sys
 import threading
 import time
+import warnings
 
 import numpy as np
 import pytest
@@ -356,6 +357,45 @@ def test_other_threads_go_on():
     assert len(ticks) > 20
 
 
+def test_other_threads_go_on_while_a_map_is_proved_again_for_its_mesh():
+    made = sp.map(*potato(8), quality="draft")
+    ticks, stop = [], threading.Event()
+
+    def tick():
+        while not stop.is_set():
+            ticks.append(time.monotonic())
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    time.sleep(0.05)
+    before = len(ticks)
+    made.vertices  # when it is first wanted
+    during = len(ticks) - before
+    stop.set()
+    thread.join()
+    assert during > 10
+
+
+def test_a_map_is_whole_after_a_call_that_was_left_as_it_began():
+    class Enough(Exception):
+        pass
+
+    def ring(*_):
+        raise Enough
+
+    vertices, faces = potato(8)
+    made, other = sp.map(vertices, faces, quality="draft"), sp.map(*octahedron())
+    held = signal.signal(signal.SIGALRM, ring)
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.001)  # heard while the mesh is proved
+        with pytest.raises(Enough):
+            sp.match(made, other, ())
+    finally:
+        signal.signal(signal.SIGALRM, held)
+    assert (made.vertices == vertices).all() and (made.faces == faces).all()
+
+
 def test_several_threads_map_at_once(mapped):
     found = []
 
@@ -368,6 +408,36 @@ def test_several_threads_map_at_once(mapped):
     for thread in threads:
         thread.join()
     assert found == [True] * 4
+
+
+def test_threads_that_read_arrays_at_once_leave_the_filters_of_warnings_as_they_were():
+    vertices, faces = octahedron()
+    inside, both, over = threading.Event(), threading.Event(), threading.Event()
+
+    class Slow:
+        def __init__(self, here, until):
+            self.here, self.until = here, until
+
+        def __array__(self, *_):
+            self.here.set()
+            assert self.until.wait(60)
+            return vertices
+
+    def first():
+        sp.Mesh(Slow(inside, both), faces)
+        over.set()
+
+    def second():
+        assert inside.wait(60)
+        sp.Mesh(Slow(both, over), faces)
+
+    before = list(warnings.filters)
+    threads = [threading.Thread(target=work) for work in (first, second)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert over.is_set() and warnings.filters == before
 
 
 def test_importing_opens_no_images_and_casts_no_rays():

@@ -2,10 +2,12 @@
 
 #include <pybind11/pybind11.h>
 
+#include <exception>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -47,9 +49,11 @@ struct Source {
   MeshSource mesh;
 };
 
-/// Seconds by the clock, and of all processors.
-struct Spent {
+/// How a map was made here: seconds by the clock, and of all processors; whether the surface
+/// encloses a negative volume.
+struct Making {
   double wall = 0, processors = 0;
+  bool inside_out = false;
 };
 
 /// A mesh with its proved map. Copies share it.
@@ -61,15 +65,17 @@ class Mapped {
   explicit Mapped(MappedMesh mesh);
   /// `made`: how it went; its map is that of the mesh.
   Mapped(MeshSource source, Topology topology, Provenance provenance, Parameterization made,
-         Spent spent, int threads);
+         Making making, int threads);
 
+  /// Threads of Python let go of its lock while the mesh is made. That is never left half done, for
+  /// what it is made of is there once: who calls for a mesh that could not be made hears why again.
   const MappedMesh& mesh() const;
   const SphereMap& map() const;
   const Certificate& certificate() const;
 
   /// Nothing where it was read.
   const std::optional<Parameterization>& made() const { return state_->made; }
-  Spent spent() const { return state_->spent; }  // by the library's call
+  const Making& making() const { return state_->making; }  // by the library's call
   const std::vector<RepairAction>& repairs() const { return state_->repairs; }
   const std::vector<HandleLoop>& handles() const { return state_->handles; }
 
@@ -79,11 +85,13 @@ class Mapped {
     int threads = 0;
     std::once_flag is_made = {};
     std::optional<MappedMesh> mesh = {};
+    std::exception_ptr failure = {};  // or why there is none
     std::optional<Parameterization> made = {};
-    Spent spent = {};
+    Making making = {};
     std::vector<RepairAction> repairs = {};
     std::vector<HandleLoop> handles = {};
   };
+  void make_mesh() const;
   std::shared_ptr<State> state_;
 };
 
@@ -166,6 +174,9 @@ class Settings {
   Value cast(const char* name) const try {
     return py::cast<Value>(values_[name]);
   } catch (const py::cast_error&) {
+    if (std::is_integral_v<Value> && py::isinstance<py::int_>(values_[name]))
+      throw py::value_error(name +
+                            (": beyond what it may be: " + std::string(py::str(values_[name]))));
     const auto given = py::cast<std::string>(py::str(py::type::of(values_[name]).attr("__name__")));
     throw py::type_error(std::string(name) + ": this cannot be a " + given);
   }

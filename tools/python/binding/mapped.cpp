@@ -2,9 +2,12 @@
 
 #include <pybind11/stl.h>
 
+#include <atomic>
+
 #include "arrays.h"
 #include "binding.h"
 #include "sphparam/io/fillers.h"
+#include "sphparam/stopped_by.h"
 
 namespace sphparam::python {
 
@@ -13,7 +16,7 @@ Mapped::Mapped(MappedMesh mesh) : state_(std::make_shared<State>()) {
 }
 
 Mapped::Mapped(MeshSource source, Topology topology, Provenance provenance, Parameterization made,
-               Spent spent, int threads)
+               Making making, int threads)
     : state_(std::make_shared<State>()) {
   state_->parts = {.file = std::move(source.file),
                    .map = {},
@@ -23,19 +26,30 @@ Mapped::Mapped(MeshSource source, Topology topology, Provenance provenance, Para
                    .mapped_here = true,
                    .name = std::move(source.path)};
   state_->made = std::move(made);
-  state_->spent = spent;
+  state_->making = making;
   state_->threads = threads;
   state_->repairs = std::move(source.repairs);
   state_->handles = std::move(source.handles);
 }
 
-const MappedMesh& Mapped::mesh() const {
-  if (!state_->made) return *state_->mesh;
-  std::call_once(state_->is_made, [this] {
+void Mapped::make_mesh() const {
+  const std::atomic<bool> never = false;
+  const StoppedBy stop(never);
+  try {
     state_->parts->map = state_->made->map;  // arrays show the one that is there
     state_->mesh.emplace(std::move(*state_->parts), state_->threads);
-    state_->parts.reset();
-  });
+  } catch (...) {
+    state_->failure = std::current_exception();
+  }
+  state_->parts.reset();
+}
+
+const MappedMesh& Mapped::mesh() const {
+  if (!state_->made) return *state_->mesh;
+  std::optional<py::gil_scoped_release> unlocked;
+  if (PyGILState_GetThisThreadState()) unlocked.emplace();  // threads of the library have no lock
+  std::call_once(state_->is_made, [this] { make_mesh(); });
+  if (state_->failure) std::rethrow_exception(state_->failure);
   return *state_->mesh;
 }
 
@@ -53,8 +67,9 @@ py::object account(const Mapped& mapped) {
   const Parameterization& made = *mapped.made();
   py::dict dict;
   dict["made_by"] = made.made_by;
-  dict["seconds"] = mapped.spent().wall;
-  dict["processor_seconds"] = mapped.spent().processors;
+  dict["seconds"] = mapped.making().wall;
+  dict["processor_seconds"] = mapped.making().processors;
+  dict["inside_out"] = mapped.making().inside_out;
   dict["poles"] = py::none();
   if (made.poles) dict["poles"] = py::make_tuple(made.poles->north, made.poles->south);
   dict["meridian"] = py::none();

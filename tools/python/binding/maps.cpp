@@ -79,6 +79,20 @@ void by_file_numbers(Parameterization& result, const FileNumbers& numbers) {
   if (result.meridian) result.meridian = number(*result.meridian);
 }
 
+/// Whether the faces are clockwise from outside. Of any size: lengths are relative to the box.
+bool is_inside_out(const TriangleMesh& mesh) {
+  const Vector3 lower = mesh.positions.colwise().minCoeff();
+  const Vector3 upper = mesh.positions.colwise().maxCoeff();
+  const double size = (upper / 2 - lower / 2).maxCoeff();
+  const auto corner = [&](Face f, int k) -> Vector3 {
+    return (mesh.position(mesh.triangles(f, k)) / 2 - lower / 2) / size;
+  };
+  double volume = 0;
+  for (Face f = 0; f < mesh.face_count(); ++f)
+    volume += corner(f, 0).dot(corner(f, 1).cross(corner(f, 2)));
+  return volume < 0;
+}
+
 Mapped map_mesh(MeshSource source, Request request) {
   ParameterizeOptions& options = request.options;
   Topology topology = topology_of(source);
@@ -88,8 +102,9 @@ Mapped map_mesh(MeshSource source, Request request) {
   const std::clock_t begin = std::clock();
   options.fillers = fillers_of(source.file);
   Parameterization result = parameterize_standing(source.file, topology, options);
-  const Spent spent{stopwatch.seconds(),
-                    static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC};
+  const Making making{stopwatch.seconds(),
+                      static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC,
+                      is_inside_out(source.file.mesh)};
   require_wanted(result, options);
   const FileNumbers numbers(source.file);
   std::string upright;
@@ -103,7 +118,7 @@ Mapped map_mesh(MeshSource source, Request request) {
                                          .verdict = verdict(result.certificate)},
                                         numbers);
   by_file_numbers(result, numbers);
-  return {std::move(source), std::move(topology), std::move(provenance), std::move(result), spent,
+  return {std::move(source), std::move(topology), std::move(provenance), std::move(result), making,
           options.threads};
 }
 

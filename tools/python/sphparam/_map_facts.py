@@ -244,17 +244,10 @@ class MapFacts:
     def warnings(self) -> List[str]:
         """What there is to say of how the map came out, and of a surface that is inside out."""
         said: List[str] = self._account().get("warnings", [])
-        return said + self._once("inside_out", self._inside_out)
-
-    def _inside_out(self) -> List[str]:
-        if not self._account() or self._volume() >= 0:
-            return []
-        return ["the faces are clockwise from outside, the volume is negative: faces[:, ::-1] or repair=True turns them"]
-
-    def _volume(self) -> float:
-        """Six times what the surface encloses."""
-        a, b, c = (self.vertices[self.faces[:, k]] - self.vertices[0] for k in range(3))
-        return float(np.einsum("ij,ij->", a, np.cross(b, c)))
+        if not self._account().get("inside_out", False):
+            return list(said)
+        turned = "the faces are clockwise from outside, the volume is negative: faces[:, ::-1] or repair=True turns them"
+        return [*said, turned]
 
     @property
     def provenance(self) -> Dict[str, str]:
