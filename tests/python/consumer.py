@@ -40,6 +40,8 @@ def use(vertices: Floats, faces: npt.NDArray[np.int64]) -> None:
     mended: sp.Mesh = sp.repair(vertices, faces, handle_choice="cut")
     found: sp.Inspection = sp.inspect(mended)
     proof: sp.Certificate = sp.verify("statue.sph.ply")
+    hard: sp.Mesh = mended.creased(30)
+    normals: Optional[Floats] = hard.corner_normals
     parts: List[sp.Mesh] = sp.components(vertices, faces, repair=True)
     open_map: sp.SphereMap = sp.map(parts[0], repair={"keep_holes": True}, filler_share=0.1, align="body")
     marks: npt.NDArray[np.bool_] = open_map.fillers
@@ -47,7 +49,7 @@ def use(vertices: Floats, faces: npt.NDArray[np.int64]) -> None:
     radial: Optional[sp.Radial] = sp.map(surface, method="radial", centre=(0, 0, 1)).radial
     where: str = open_map.bake("elevation", body="vesta", unit="km").convention
     open_map.save("open.obj", holes="drop")
-    print(marks, radial, where)
+    print(marks, radial, where, normals)
     page: str = m.show()
     print(again, one, mean, ratios, stage, poles, carried, face, weights, picture, written, baked, lack)
     print(values, uv, rms, found, proof, page, sp.fields(), sp.__version__)

@@ -102,3 +102,33 @@ def test_losses_are_told(tmp_path):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert np.isfinite(made.map.points).all()
+
+
+def test_no_file_of_the_asset_is_replaced(tmp_path):
+    sp.map(*potato(2)).export(tmp_path / "ball.glb", image_size=16)
+    before = (tmp_path / "ball.glb").read_bytes()
+    os.symlink(tmp_path, tmp_path / "here")
+    for folder in (tmp_path, tmp_path / "here"):
+        with pytest.raises(ValueError, match="folder: .*ball.glb is of the asset, and would be replaced"):
+            sp.asset(tmp_path / "ball.glb", folder, size=16, page=False)
+    assert (tmp_path / "ball.glb").read_bytes() == before and sorted(os.listdir(tmp_path)) == ["ball.glb", "here"]
+    os.remove(tmp_path / "here")
+    path = write_obj(tmp_path / "skin.obj", *potato(2))
+    (tmp_path / "a.mtl").write_text("newmtl red\nmap_Kd skin_basecolor.png\n")
+    sp.map(*potato(2)).bake_files({"normal-object": tmp_path / "skin_basecolor.png"}, size=16)
+    before = {p.name: p.read_bytes() for p in tmp_path.iterdir()}
+    with pytest.raises(ValueError, match="folder: .*skin_basecolor.png is of the asset"):
+        sp.asset(path, tmp_path, size=16, page=False)
+    assert {p.name: p.read_bytes() for p in tmp_path.iterdir()} == before
+
+
+def test_an_asset_without_normals_has_hard_edges_where_they_are_asked_for(tmp_path):
+    vertices = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
+    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    path = write_obj(tmp_path / "box.obj", vertices, np.array([[q[0], *q[k : k + 2]] for q in quads for k in (1, 2)]))
+    for crease, hard in ((None, False), (30, True)):
+        made = sp.asset(path, tmp_path / "out", size=16, page=False, crease=crease)
+        assert (made.map.mesh.corner_normals is not None) == hard and made.warnings == []
+    sp.write(tmp_path / "own.ply", vertices, sp.read(path).faces, values={"normal": vertices - 0.5})
+    with pytest.warns(sp.LossWarning, match="normals of its own"):
+        assert "normals of its own" in sp.asset(tmp_path / "own.ply", tmp_path / "own", size=16, page=False, crease=30).warnings[-1]

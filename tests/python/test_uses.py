@@ -245,6 +245,44 @@ def test_a_texture_is_painted_for_the_meshs_own_coordinates(tmp_path):
     assert skin.shape == (32, 32, 4) and (skin[16, 16] == (10, 100, 200, 255)).all()
 
 
+# Hard edges.
+
+
+def box():
+    vertices = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
+    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    return vertices, np.array([[q[0], *q[k : k + 2]] for q in quads for k in (1, 2)])
+
+
+def test_a_box_has_hard_edges_where_they_are_asked_for(tmp_path):
+    smooth = sp.Mesh(*box(), values={"a": np.arange(8.0)})
+    hard = smooth.creased(30)
+    assert smooth.corner_normals is None and hard.corner_normals.shape == (12, 3, 3)
+    corners = hard.vertices[hard.faces]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    assert (hard.corner_normals == normals[:, None]).all() and (hard.values["a"] == np.arange(8)).all()
+    assert smooth.creased(91).corner_normals is None  # no edge turns by more
+    image = np.asarray(sp.map(hard).bake("normal-object", size=32))
+    assert (np.abs(image).max(axis=2) == 1).all()
+    assert np.abs(np.asarray(sp.map(smooth).bake("normal-object", size=32))).max(axis=2).min() < 0.7
+    sp.write(tmp_path / "a.obj", *box())
+    sp.map(sp.read(tmp_path / "a.obj").creased(30)).export(tmp_path / "ours.ply", image_size=64)
+    program("export", "a.obj", "--crease", "30", "--image-size", "64", "-o", "theirs.ply", cwd=tmp_path)
+    assert (tmp_path / "ours.ply").read_bytes().replace(b"ours_", b"theirs_") == (tmp_path / "theirs.ply").read_bytes()
+
+
+def test_normals_of_a_meshs_own_say_what_is_hard():
+    hard = sp.Mesh(*box()).creased(30)
+    with pytest.warns(sp.LossWarning, match="has normals of its own") as told:
+        assert hard.creased(120) is hard
+    assert len(told) == 1 and told[0].filename == __file__
+    for degrees in (-1, 181, np.nan):
+        with pytest.raises(ValueError, match="0 to 180"):
+            sp.Mesh(*box()).creased(degrees)
+    with pytest.raises(TypeError, match="degrees: a number"):
+        sp.Mesh(*box()).creased("much")
+
+
 # Grids.
 
 

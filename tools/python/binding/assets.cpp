@@ -2,9 +2,13 @@
 
 #include <pybind11/stl.h>
 
+#include <filesystem>
+#include <stdexcept>
+
 #include "binding.h"
 #include "call.h"
 #include "sphparam/asset/remake_asset.h"
+#include "sphparam/io/creases.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/paths.h"
@@ -13,8 +17,16 @@
 namespace sphparam::python {
 namespace {
 
-RemakeOptions options_of(const py::dict& values) {
+namespace fs = std::filesystem;
+
+struct Wanted {
   RemakeOptions options;
+  std::optional<double> crease;  // degrees
+};
+
+Wanted wanted_of(const py::dict& values) {
+  Wanted wanted;
+  RemakeOptions& options = wanted.options;
   std::string up, front;
   Settings settings(values);
   settings.take("size", options.width)
@@ -24,6 +36,7 @@ RemakeOptions options_of(const py::dict& values) {
       .take("resolution", options.whole.resolution)
       .take("least_kept", options.whole.least_kept)
       .take("compress", options.compress)
+      .take("crease", wanted.crease)
       .take("up", up)
       .take("front", front)
       .take("page", options.page)
@@ -32,7 +45,7 @@ RemakeOptions options_of(const py::dict& values) {
   settings.require_all_known();
   options.up = up_of(up, front);
   options.facts = {{"program", std::string("sphparam ") + version}};
-  return options;
+  return wanted;
 }
 
 struct Made {
@@ -40,13 +53,52 @@ struct Made {
   RemadeAsset remade;
 };
 
-Made make(const std::string& path, const std::string& folder, const RemakeOptions& options) {
+/// The asset's file and those that it names.
+std::vector<std::string> files_of(const MeshSource& asset) {
+  std::vector<std::string> files = asset.file.companions;
+  files.push_back(asset.path);
+  const auto add = [&](const MaterialTexture& texture) {
+    if (!texture.path.empty()) files.push_back((fs::path(texture.folder) / texture.path).string());
+  };
+  for (const MaterialTexture& colour : asset.file.base_colours) add(colour);
+  for (const MaterialChannels& channels : asset.file.channels)
+    for (const MaterialTexture* texture : channels.textures()) add(*texture);
+  return files;
+}
+
+/// What is made of an asset replaces nothing of it.
+void require_others(const std::vector<std::string>& made, const MeshSource& asset) {
+  for (const std::string& name : made) {
+    for (const std::string& given : files_of(asset)) {
+      std::error_code none;  // where one of them is not there
+      if (fs::equivalent(name, given, none))
+        throw std::invalid_argument(
+            "folder: " + name +
+            " is of the asset, and would be replaced; another folder is needed");
+    }
+  }
+}
+
+std::vector<std::string> names_of(const WrittenFiles& files) {
+  std::vector<std::string> names;
+  for (const auto& [name, size] : files) names.push_back(name);
+  return names;
+}
+
+Made make(const std::string& path, const std::string& folder, const Wanted& wanted) {
   ReadOptions lenient;
   lenient.repeated_corners = lenient.non_finite = true;
   MeshSource asset = read_source(path, lenient);
+  const std::string stem = (fs::path(folder) / stem_of(path)).string();
+  require_others({stem + ".glb", stem + ".sph.ply", stem + ".html"}, asset);
+  const bool has_own = wanted.crease && !add_creases(asset.file, *wanted.crease);
   PendingFiles files;
-  RemadeAsset remade = remake_asset(asset, folder, options, files);
+  RemadeAsset remade = remake_asset(asset, folder, wanted.options, files);
+  require_others(names_of(remade.files), asset);
   files.publish();
+  if (has_own)
+    remade.warnings.emplace_back(
+        "the asset has normals of its own, which say what is hard: crease is for others");
   return {std::move(asset), std::move(remade)};
 }
 
@@ -85,11 +137,11 @@ py::dict as_dict(const Made& made) {
 
 py::dict asset(const FilePath& path, const FilePath& folder, const py::dict& values,
                const py::object& progress) {
-  const RemakeOptions wanted = options_of(values);
-  return as_dict(writing_call(progress, [wanted, path, folder](const Progress& report) {
-    RemakeOptions options = wanted;
-    options.whole.progress = report;
-    return make(path, folder, options);
+  const Wanted asked = wanted_of(values);
+  return as_dict(writing_call(progress, [asked, path, folder](const Progress& report) {
+    Wanted wanted = asked;
+    wanted.options.whole.progress = report;
+    return make(path, folder, wanted);
   }));
 }
 

@@ -8,6 +8,7 @@
 #include "binding.h"
 #include "call.h"
 #include "sphparam/io/certified_files.h"
+#include "sphparam/io/creases.h"
 #include "sphparam/io/fillers.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/mesh_reader.h"
@@ -102,6 +103,15 @@ std::unique_ptr<Source> surface(const Source& source) {
   return made;
 }
 
+/// Another mesh with hard edges; nothing where this one has normals, which say what is hard.
+std::unique_ptr<Source> creased(const Source& source, double degrees) {
+  const auto mesh = std::make_shared<MeshSource>(source.mesh);
+  return call(py::none(), [mesh, degrees](const Progress&) {
+    const bool made = add_creases(mesh->file, degrees).has_value();
+    return made ? std::make_unique<Source>(Source{std::move(*mesh)}) : nullptr;
+  });
+}
+
 template <class Table>
 py::object optional_rows(const std::optional<Table>& table, py::handle owner) {
   return table ? py::object(shown_rows(*table, owner)) : py::none();
@@ -132,6 +142,11 @@ void declare_meshes(py::module_& module) {
                              [](const py::object& self) {
                                return optional_rows(
                                    self.cast<const Source&>().mesh.file.corner_texcoords, self);
+                             })
+      .def_property_readonly("corner_normals",
+                             [](const py::object& self) {
+                               return optional_rows(
+                                   self.cast<const Source&>().mesh.file.corner_normals, self);
                              })
       .def_property(
           "path", [](const Source& self) { return FilePath(self.mesh.path); },
@@ -179,6 +194,7 @@ void declare_meshes(py::module_& module) {
   module.def("read", read);
   module.def("write", write);
   module.def("surface", surface);
+  module.def("creased", creased);
   module.def("inspect", inspect);
   module.def("readable_formats", [] { return readable_formats(); });
   module.def("written_extensions", [] { return written_extensions(); });

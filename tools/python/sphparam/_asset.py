@@ -88,6 +88,7 @@ def asset(
     resolution: int = 192,
     least_kept: float = 0.98,
     compress: bool = False,
+    crease: Optional[float] = None,
     textures: str = "given",
     webp_quality: int = 90,
     up: Optional[Direction] = None,
@@ -119,6 +120,8 @@ def asset(
         Of the area, that a repair must keep; else the asset is wrapped.
     compress
         A smaller .glb, by EXT_meshopt_compression.
+    crease
+        Of an asset without normals, edges are hard whose faces turn by more degrees, 0 to 180; None: none is.
     textures, webp_quality
         What the images in the .glb are, as of :meth:`SphereMap.export`; those beside it are PNG.
     up, front
@@ -134,6 +137,8 @@ def asset(
         for one without triangles.
     WriteError, OSError
         for a folder that cannot be written to.
+    ValueError
+        for one where a file of the asset would be replaced.
     """
     name = existing(path)
     options = {
@@ -142,8 +147,9 @@ def asset(
         "occlusion": _arrays.flag(occlusion, "occlusion"),
         "triangles": _arrays.whole(triangles, "triangles", 0, 100_000_000),
         "resolution": _arrays.whole(resolution, "resolution", 8, 2000),
-        "least_kept": float(least_kept),
+        "least_kept": _arrays.real(least_kept, "least_kept"),
         "compress": _arrays.flag(compress, "compress"),
+        "crease": None if crease is None else _arrays.real(crease, "crease"),
         "textures": _arrays.text(textures, "textures"),
         "webp_quality": _arrays.whole(webp_quality, "webp_quality", 1, 100),
         "up": as_direction(up, "up"),

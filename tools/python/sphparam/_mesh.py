@@ -134,6 +134,28 @@ class Mesh:
         return None if rows is None else rows.reshape(-1, 3, 2)
 
     @property
+    def corner_normals(self) -> Optional[npt.NDArray[numpy.float64]]:
+        """(F, 3, 3) normals of corners, where the mesh has such: they differ along hard edges. Else None."""
+        rows = self._source.corner_normals
+        return None if rows is None else rows.reshape(-1, 3, 3)
+
+    def creased(self, degrees: float) -> Mesh:
+        """The same with hard edges: those whose faces turn by more than so many degrees, from 0 to 180.
+
+        For meshes without normals (STL, CAD), which all that is drawn, baked and exported of them shows as smooth
+        else: ``sp.map(sp.read("part.stl").creased(30))``. Where the mesh has normals, these say what is hard: it
+        comes back as it is, with a warning. Where vertices have copies, :func:`repair` goes first.
+        """
+        self._require_sound()
+        made = _core.creased(self._source, _arrays.real(degrees, "degrees"))
+        if made is None:
+            tell([f"{path_told(self.path)}: has normals of its own, which say what is hard"])
+            return self
+        other = Mesh._of(made, share=self._share)
+        other._welds = self._welds
+        return other
+
+    @property
     def fillers(self) -> npt.NDArray[numpy.bool_]:
         """(F,) True where a face only closes a hole that was kept, by the face value ``"filler"``."""
         marks: npt.NDArray[numpy.bool_] = _values.read_only(self._source.fillers.view(bool))
@@ -213,8 +235,12 @@ class Mesh:
         raise TypeError("a Mesh cannot be pickled: mesh.save(path) writes it, sphparam.read(path) reads it")
 
     def __repr__(self) -> str:
-        path = os.fsencode(self.path).decode(errors="replace")
-        return f"<sphparam.Mesh: {len(self.vertices)} vertices, {len(self.faces)} faces, {path}>"
+        return f"<sphparam.Mesh: {len(self.vertices)} vertices, {len(self.faces)} faces, {path_told(self.path)}>"
+
+
+def path_told(path: str) -> str:
+    """A file's name for people, who need not have its bytes."""
+    return os.fsencode(path).decode(errors="replace")
 
 
 def numbered(count: int) -> npt.NDArray[numpy.int32]:
