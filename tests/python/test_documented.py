@@ -157,3 +157,16 @@ def test_texts_that_begin_as_a_class_does_are_no_classes(tmp_path):
     names = {"__file__": str(source), "A2": 2}
     exec(source.read_text(), names)
     document(names)
+
+
+def test_wheels_are_made_by_every_python_that_they_are_for(monkeypatch):
+    """Before 3.11 there is no `tomllib`; the package `tomli` is the same."""
+    import importlib.util
+    import tomllib
+
+    monkeypatch.setitem(sys.modules, "tomllib", None)
+    monkeypatch.setitem(sys.modules, "tomli", tomllib)
+    spec = importlib.util.spec_from_file_location("wheel_backend", package.parent / "wheel_backend.py")
+    backend = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(backend)
+    assert backend._project()["version"] == sp.__version__ and backend._project()["requires-python"] == ">=3.10"

@@ -1,7 +1,10 @@
 """Nothing goes wrong in silence: colours, copies of vertices, values without room, maps that are not there."""
 
+import json
+import os
 import re
 import struct
+import subprocess
 import warnings
 import zlib
 
@@ -19,6 +22,16 @@ colours = (np.abs(V) / np.abs(V).max() * 255).astype(np.uint8)
 @pytest.fixture(scope="module")
 def painted():
     return sp.map(V, F, values={"color": colours, "height": V[:, 2], "label": np.arange(len(V)) % 3})
+
+
+@pytest.fixture(scope="module")
+def shining(tmp_path_factory):
+    """Of one material, which has all but textures."""
+    folder = tmp_path_factory.mktemp("shining")
+    (folder / "a.mtl").write_text("newmtl red\nKd 0.5 0.2 0.1\nPr 0.3\nPm 0.6\nKe 0.9 0.5 0.1\n")
+    lines = [f"v {x} {y} {z}" for x, y, z in V.tolist()] + [f"f {a} {b} {c}" for a, b, c in (F + 1).tolist()]
+    (folder / "a.obj").write_text("\n".join(["mtllib a.mtl", "usemtl red", *lines, ""]))
+    return sp.map(sp.read(folder / "a.obj"))
 
 
 def told(use):
@@ -74,6 +87,42 @@ def test_colours_are_those_of_the_programs_png(field, heat, painted, tmp_path):
     assert image.dtype == np.float32 and image.about.endswith("sRGB")
     assert (image.picture() == png).all()
     assert (np.floor(np.asarray(image) * 255 + 0.5) == png).all()
+
+
+@pytest.mark.parametrize("field", ["basecolor", "emissive", "orm", "roughness", "metallic", "occlusion"])
+def test_what_materials_have_is_that_of_the_programs_png(field, shining, tmp_path):
+    image = shining.bake(field, size=32)
+    shining.bake_files({field: tmp_path / "a.png"}, size=32)
+    assert (image.picture() == pixels_of(tmp_path / "a.png")).all()
+    assert image.about.endswith("sRGB") == (field in ("basecolor", "emissive"))
+
+
+def test_maps_of_materials_are_exported_as_the_program_does(shining, tmp_path):
+    fields = {"normal-tangent": "normal_map", "orm": "orm_map", "emissive": "emissive_map"}
+    baked = {field: shining.bake(field, size=32) for field in fields}
+    shining.bake_files({field: tmp_path / f"{name}.png" for field, name in fields.items()}, size=32)
+    shining.export(tmp_path / "a.glb", image_size=16, **{name: tmp_path / f"{name}.png" for name in fields.values()})
+    made = shining.export(tmp_path / "b.gltf", image_size=16, **{name: baked[field] for field, name in fields.items()})
+    [material] = json.loads((tmp_path / "b.gltf").read_text())["materials"]
+    assert material["emissiveTexture"] and material["pbrMetallicRoughness"]["metallicRoughnessTexture"] and len(made) >= 5
+    again = sp.read(tmp_path / "a.glb")
+    assert (sp.map(again).bake("emissive", size=16).picture() == (243, 188, 89)).all()
+    shining.save(tmp_path / "c.sph.ply")
+    maps = ["--normal-map", "normal_map.png", "--orm-map", "orm_map.png", "--emissive-map", "emissive_map.png"]
+    command = [os.environ["SPHPARAM_PROGRAM"], "export", "c.sph.ply", "--image-size", "16", *maps, "-o", "d.glb"]
+    subprocess.run(command, check=True, cwd=tmp_path, capture_output=True)
+    sp.load(tmp_path / "c.sph.ply").export(
+        tmp_path / "e.glb", image_size=16, name="c.sph", **{name: tmp_path / f"{name}.png" for name in fields.values()}
+    )
+    assert (tmp_path / "d.glb").read_bytes() == (tmp_path / "e.glb").read_bytes()
+    for name, wrong, words in (
+        ("orm_map", "emissive", "'orm' is needed, not of 'emissive'"),
+        ("emissive_map", "orm", "'emissive' is needed, not of 'orm'"),
+        ("occlusion_map", "orm", "'ao' is needed, or of 'occlusion', not of 'orm'"),
+    ):
+        with pytest.raises(ValueError, match=f"{name}: an image of {words}"):
+            shining.export(tmp_path / "f.glb", **{name: baked[wrong]})
+    shining.export(tmp_path / "f.glb", image_size=16, occlusion_map=shining.bake("occlusion", size=16))
 
 
 @pytest.mark.parametrize("change", [lambda b: b * 1.0, lambda b: np.clip(b, 0, 1), np.asarray, lambda b: b.picture()])
@@ -309,6 +358,13 @@ def test_a_surface_inside_out_is_told():
         assert "faces[:, ::-1]" in sp.map(V, F[:, ::-1]).warnings[0]
     assert len(told) == 1 and told[0].filename == __file__
     assert sp.map(V, F).warnings == [] and sp.map(V, F[:, ::-1], repair=True).warnings == []
+
+
+@pytest.mark.parametrize("size", [1e-150, 1e-110, 1e110, 1e150])
+def test_which_side_is_out_is_told_of_any_size(size):
+    assert sp.map(size * V, F, quality="draft").warnings == []
+    with pytest.warns(sp.LossWarning, match="clockwise"):
+        sp.map(size * V, F[:, ::-1], quality="draft")
 
 
 def test_more_coefficients_than_vertices_are_told():

@@ -20,7 +20,10 @@ packed = ("CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "pyproj
 
 
 def _project():
-    import tomllib
+    try:
+        import tomllib
+    except ImportError:  # before Python 3.11
+        import tomli as tomllib
 
     project = tomllib.loads((root / "pyproject.toml").read_text())["project"]
     project["version"] = re.search(r"project\(sphparam VERSION ([0-9.]+)", (root / "CMakeLists.txt").read_text())[1]

@@ -29,6 +29,8 @@ void take_look(Settings& settings, LookOptions& look) {
   settings.take_path("texture", look.texture)
       .take_path("normal_map", look.normal)
       .take_path("occlusion_map", look.occlusion)
+      .take_path("orm_map", look.orm)
+      .take_path("emissive_map", look.emissive)
       .take_path("images", look.folder)
       .take("variants", look.variants)
       .take("image_size", look.image_width)

@@ -128,12 +128,12 @@ class BakedImage(_Floats):
         return png_of(every.picture())
 
 
-_shares = ("ao", "mask")
+_shares = ("ao", "mask", "occlusion", "roughness", "metallic", "orm")
 
 
 def is_colour(field: str, about: str) -> bool:
-    """Whether a field shows colours: of the surface, or of numbers with ``heat``."""
-    return field in ("basecolor", "vcolor") or about.startswith("colours of ")
+    """Whether a field shows colours: of the surface or its light, or of numbers with ``heat``."""
+    return field in ("basecolor", "vcolor", "emissive") or about.startswith("colours of ")
 
 
 def _encoded(table: Any, field: str, about: str) -> Any:
@@ -176,18 +176,19 @@ def require_fit(image: Any, name: str, convention: str, refine_poles: Optional[i
         )
 
 
-def require_kind(image: Any, name: str, field: str, fingerprint: Optional[Callable[[], int]] = None) -> None:
-    """Refuses a baked image of another field, and tangent normals of another mesh's frame."""
+def require_kind(image: Any, name: str, *fields: str, fingerprint: Optional[Callable[[], int]] = None) -> None:
+    """Refuses a baked image of other fields, and tangent normals of another mesh's frame."""
     if not isinstance(image, BakedImage) or not image.field:
         return
-    if image.field != field:
-        raise ValueError(f"{name}: an image of {field!r} is needed, not of {image.field!r}")
+    if image.field not in fields:
+        others = "".join(f", or of {other!r}" for other in fields[1:])
+        raise ValueError(f"{name}: an image of {fields[0]!r} is needed{others}, not of {image.field!r}")
     if fingerprint is None or image._baked is None:
         return
     if image._baked.normal_y_down:
         raise ValueError(f"{name}: baked with normal_y_down=True; glTF and OBJ want normals with y up")
     if image._baked.frame != fingerprint():
-        raise ValueError(f"{name}: baked for another mesh; bake({field!r}, target=…) makes it for the one exported")
+        raise ValueError(f"{name}: baked for another mesh; bake({image.field!r}, target=…) makes it for the one exported")
 
 
 document(globals())

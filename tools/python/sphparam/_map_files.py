@@ -63,6 +63,8 @@ class MapFiles(MapFacts):
         texture: Optional[Image] = None,
         normal_map: Optional[Image] = None,
         occlusion_map: Optional[Image] = None,
+        orm_map: Optional[Image] = None,
+        emissive_map: Optional[Image] = None,
         images: Optional[Path] = None,
         variants: Sequence[str] = (),
         image_size: int = 2048,
@@ -91,14 +93,15 @@ class MapFiles(MapFacts):
 
         Parameters
         ----------
-        texture, normal_map, occlusion_map
+        texture, normal_map, occlusion_map, orm_map, emissive_map
+            Colours; normals; occlusion; occlusion, roughness and metallic in red, green and blue; light that is given.
             Equirectangular images, twice as wide as high: files, or arrays (H, W) of greys or (H, W, 3 or 4),
             uint8 or floats from 0 to 1, in sRGB; or what :meth:`bake` made, which is turned into colours.
             That must be of the same ``convention`` and ``refine_poles``, a normal map ``"normal-tangent"``
-            and for this mesh; of files their metadata says so. Alpha of strangers' textures that is not 1
+            and for this mesh, the others ``"ao"`` or ``"occlusion"``, ``"orm"``, ``"emissive"``; of files their metadata says so. Alpha of strangers' textures that is not 1
             everywhere is a mask where it is 0 or 1, else blended.
         images
-            A folder of the program's ``bake``: its base colour, normal map and occlusion.
+            A folder of the program's ``bake``: what is there of these.
         variants
             More materials to switch to: ``"axes"``, ``"checker"``, ``"graticule"``, ``"area"``,
             ``"angle"``.
@@ -148,16 +151,22 @@ class MapFiles(MapFacts):
             up=as_direction(up, "up"),
             front=as_direction(front, "front"),
             images=path_of(images) if images is not None else "",
-            variants=[_arrays.text(v, "variants") for v in ([variants] if isinstance(variants, str) else variants)],
-            levels=[mapped_of(level, "levels") for level in levels],
+            variants=[_arrays.text(v, "variants") for v in ([variants] if isinstance(variants, str) else _arrays.listed(variants, "variants", "texts"))],
+            levels=[mapped_of(level, "levels") for level in _arrays.listed(levels, "levels", "maps")],
             webp_quality=_arrays.whole(webp_quality, "webp_quality", 1, 100),
             threads=_arrays.threads(threads),
         )
-        require_kind(normal_map, "normal_map", "normal-tangent", self._fingerprint)
-        require_kind(occlusion_map, "occlusion_map", "ao")
+        require_kind(normal_map, "normal_map", "normal-tangent", fingerprint=self._fingerprint)
+        require_kind(occlusion_map, "occlusion_map", "ao", "occlusion")
+        require_kind(orm_map, "orm_map", "orm")
+        require_kind(emissive_map, "emissive_map", "emissive")
+        given_images = {
+            "texture": texture, "normal_map": normal_map, "occlusion_map": occlusion_map, "orm_map": orm_map,
+            "emissive_map": emissive_map,
+        }  # fmt: skip
         # .obj and .ply keep a copy of the image, .gltf and .glb hold it: the file made here may go.
         with ExitStack() as held:
-            for what, image in (("texture", texture), ("normal_map", normal_map), ("occlusion_map", occlusion_map)):
+            for what, image in given_images.items():
                 options[what] = held.enter_context(as_file(image, what, convention, refine_poles))
             report = held.enter_context(told(progress))
             files, warned = _core.export(self._mapped, name_of_file, options, report)
