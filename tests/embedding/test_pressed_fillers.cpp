@@ -93,6 +93,46 @@ TEST_CASE("pressed fillers: pressure adds its multiple of the area, and no more"
   CHECK(energy(3) - energy(0) == Approx(3 * half_determinants).epsilon(1e-6));
 }
 
+TEST_CASE("pressed fillers: marks without a pressure change no bit") {
+  const Bowl bowl(0.4);
+  const RestTriangles source = measure_source(bowl.mesh);
+  for (const auto kind : {EnergyKind::AngleAndArea, EnergyKind::SymmetricDirichlet}) {
+    const auto optimised = [&](double pressure, const FillerMarks& pressed) {
+      return optimise(bowl.topology, source,
+                      normalised(bowl.map.points * Vector3(1, 2, 3).asDiagonal()),
+                      {.energy = {.kind = kind, .pressure = pressure}, .pressed = pressed});
+    };
+    const Optimisation plain = optimised(0, {});
+    CHECK(plain.report.energy_after < plain.report.energy_before);
+    for (const double nothing : {0.0, -0.0}) {
+      const Optimisation marked = optimised(nothing, bowl.fillers);
+      CHECK(marked.map.points == plain.map.points);
+      CHECK(marked.report.energy_after == plain.report.energy_after);
+    }
+  }
+}
+
+TEST_CASE(
+    "pressed fillers: where their areas alone are enough, the map is the best one for these") {
+  const Bowl bowl(0.74);
+  const PressedMap result = bowl.pressed(0.1);
+  REQUIRE(bowl.share(bowl.map) > 0.1);
+  REQUIRE(result.pressure == 0);
+  CHECK(result.share <= 0.1);
+  RestTriangles source = measure_source(bowl.mesh);
+  double of_fillers = 0, of_all = 0;
+  for (size_t f = 0; f < source.size(); ++f) {
+    of_all += source[f].area;
+    of_fillers += bowl.fillers[f] ? source[f].area : 0;
+  }
+  const auto [filler, surface] = pressed_areas(of_fillers, of_all - of_fillers, 0.1);
+  for (size_t f = 0; f < source.size(); ++f) {
+    source[f] = scaled(source[f], bowl.fillers[f] ? filler : surface);
+  }
+  const Optimisation best = optimise(bowl.topology, source, bowl.map, {.least_gain = 1e-6});
+  CHECK(*result.energy < 1.001 * best.report.energy_after);
+}
+
 TEST_CASE("pressed fillers: steps, with sweeps and without, draw out what is rewarded") {
   const Bowl bowl(0.2, 4);
   const RestTriangles source = measure_source(bowl.mesh);

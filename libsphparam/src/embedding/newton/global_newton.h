@@ -23,7 +23,8 @@ namespace sphparam {
 class GlobalNewton {
  public:
   /// Keeps nothing of what it is given. Requires: every determinant certain to be positive.
-  /// `pressed`: the triangles that feel the energy's pressure. Cost: linear.
+  /// `pressed`: the triangles that feel the energy's pressure, which then must never be 0: their
+  /// marks are signs of numbers that energies without a pressure take as they are. Cost: linear.
   GlobalNewton(const Topology& topology, const RestTriangles& source,
                const std::vector<ImagePoint>& image, const std::vector<Vertex>& pinned, int threads,
                const FillerMarks& pressed = {});

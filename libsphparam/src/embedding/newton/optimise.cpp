@@ -70,7 +70,9 @@ Optimisation optimise(const Topology& topology, const RestTriangles& source, con
                       const OptimiseOptions& options) {
   require_domain(options, topology.vertex_count());
   std::vector<ImagePoint> image = image_of(map);
-  GlobalNewton newton(topology, source, image, options.pinned, options.threads, options.pressed);
+  const FillerMarks none;
+  GlobalNewton newton(topology, source, image, options.pinned, options.threads,
+                      options.energy.pressure != 0 ? options.pressed : none);
   Optimisation result;
   minimise(newton, isometric_energy(source, options.energy, options.pressed), options,
            result.report);
