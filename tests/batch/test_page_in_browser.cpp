@@ -44,7 +44,13 @@ addEventListener('load', async () => {
   tell('repaired', names().join() === 'i0555', names().join());
   tell('repairs', document.querySelector('.badge.repaired').textContent === 'repaired' &&
       document.querySelector('.card').textContent.includes('hole-filled 1; handle-cut 2'), '');
+  set('[data-key=which]', 'warned', 'change');
+  tell('warned', names().join() === 'i0444' &&
+      document.querySelector('.card').textContent.includes('warning: m.ply is <turned>'), '');
   set('[data-key=which]', 'all', 'change');
+  set('.controls input', 'TURNED', 'input');
+  tell('search for a warning', names().join() === 'i0444', names().join());
+  set('.controls input', '', 'input');
   set('[data-key=order]', 'area', 'change');
   tell('order', names()[0] === 'i0777', names()[0]);
   set('.controls input', 'i0123', 'input');
@@ -73,6 +79,7 @@ BatchPlan write_batch(const fs::path& folder) {
     const bool failed = i % 33 == 1 && i < 991;
     record.head.outcome = failed ? BatchOutcome::Failed : BatchOutcome::Certified;
     if (failed) record.head.code = 4, record.head.reason = "a <hole>";
+    if (i == 444) record.head.warnings = {"/m.ply is <turned>"};
     if (i == 555) record.head.repairs = "hole-filled 1; handle-cut 2";
     const double area = i == 777 ? 9 : 0.2 + 0.0001 * i;
     record.steps.push_back({{"map"},

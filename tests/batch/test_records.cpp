@@ -33,6 +33,7 @@ TEST_CASE("record: its head is read back, and nothing behind it is looked at") {
                  .ended = 1795390320,
                  .reason = "why, \\ and \"where\"",
                  .repairs = "hole-filled 1",
+                 .warnings = {"one: \"a\"", "two"},
                  .files = {{"a/b.ply", 12, "h1"}, {"c", 0, "h2"}}};
   const std::string json = to_json(record);
   const BatchRecordHead head = read_head(json.substr(0, json.find("\"path\""))).value();
@@ -46,6 +47,7 @@ TEST_CASE("record: its head is read back, and nothing behind it is looked at") {
   CHECK(head.ended == 1795390320);
   CHECK(head.reason == record.head.reason);
   CHECK(head.repairs == "hole-filled 1");
+  CHECK(head.warnings == std::vector<std::string>{"one: \"a\"", "two"});
   REQUIRE(head.files.size() == 2);
   CHECK(head.files[0].name == "a/b.ply");
   CHECK(head.files[0].size == 12);
@@ -81,6 +83,13 @@ TEST_CASE("record: the reason is the last error of a log, with what follows a co
         "a.obj: still open");
   CHECK(reason_in("  a detail\n") == "  a detail");
   CHECK(reason_in("").empty());
+}
+
+TEST_CASE("record: warnings are those of all steps, each once, and no other lines") {
+  CHECK(warnings_in("sphparam: warning: b\n  x → y\nsphparam: error: warning: no\n"
+                    "sphparam: warning: a\nsphparam: warning: b\n") ==
+        std::vector<std::string>{"b", "a"});
+  CHECK(warnings_in("").empty());
 }
 
 TEST_CASE("hash: what xxh128sum prints") {

@@ -389,11 +389,32 @@ TEST_CASE("batch: a mesh that was repaired is told in the table, the page and th
              Contains("of the done: 2 certified one-to-one, 1 repaired\n"));
   REQUIRE(shapes.batch("table", {"-o", shapes.folder / "t.csv"}).code == 0);
   const std::string table = bytes_of(shapes.folder / "t.csv");
-  CHECK_THAT(table, Contains("id,path,outcome,code,reason,attempt,repairs,"));
-  CHECK_THAT(table, Contains("open.obj,certified,0,,1,hole-filled 1,") &&
-                        Contains("ball0.obj,certified,0,,1,,"));
+  CHECK_THAT(table, Contains("id,path,outcome,code,reason,attempt,repairs,warnings,"));
+  CHECK_THAT(table, Contains("open.obj,certified,0,,1,hole-filled 1,0,") &&
+                        Contains("ball0.obj,certified,0,,1,,0,"));
   REQUIRE(shapes.batch("report", {"-o", shapes.folder / "all.html"}).code == 0);
-  CHECK_THAT(bytes_of(shapes.folder / "all.html"), Contains("\"hole-filled 1\"]"));
+  CHECK_THAT(bytes_of(shapes.folder / "all.html"), Contains("\"hole-filled 1\",[]]"));
+}
+
+TEST_CASE("batch: what steps warn of is told in the table, the page and the status") {
+  const Shapes shapes(1);
+  TriangleMesh turned = icosphere(2);
+  turned.triangles.col(0).swap(turned.triangles.col(1));
+  write_bytes(shapes.folder / "in/turned.obj", obj_text(turned));
+  shapes.plan({"map"});
+  REQUIRE(shapes.batch("run").code == 0);
+  const Json warnings = shapes.record("turned")["warnings"];
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0].get<std::string>(), Contains("inside out"));
+  CHECK(shapes.record("ball0")["warnings"] == Json::array());
+  CHECK(shapes.status()["warned"] == 1);
+  CHECK_THAT(shapes.batch("status").out,
+             Contains("of the done: 2 certified one-to-one, 1 with warnings\n"));
+  const std::string table = shapes.batch("table", {"-o", "-", "-q"}).out;
+  CHECK_THAT(table,
+             Contains("turned.obj,certified,0,,1,,1,") && Contains("ball0.obj,certified,0,,1,,0,"));
+  REQUIRE(shapes.batch("report", {"-o", shapes.folder / "all.html"}).code == 0);
+  CHECK_THAT(bytes_of(shapes.folder / "all.html"), Contains("inside out"));
 }
 
 TEST_CASE("batch: an item that needs too much memory fails alone") {
@@ -473,9 +494,9 @@ TEST_CASE("batch: the table has the columns of the one it was planned from, and 
               .code == 0);
   shapes.batch("run");
   const std::string table = shapes.batch("table", {"-o", "-", "-q"}).out;
-  CHECK_THAT(table, Contains("repairs,age,table.code,") && Contains(",\"8, or\t9\",y,v,"));
+  CHECK_THAT(table, Contains("repairs,warnings,age,table.code,") && Contains(",\"8, or\t9\",y,v,"));
   REQUIRE(shapes.batch("table", {"-o", shapes.folder / "all.tsv"}).code == 0);
-  CHECK_THAT(bytes_of(shapes.folder / "all.tsv"), Contains("repairs\tage\ttable.code\t"));
+  CHECK_THAT(bytes_of(shapes.folder / "all.tsv"), Contains("repairs\twarnings\tage\ttable.code\t"));
   CHECK(shapes.batch("table", {"-o", shapes.folder / "all.xlsx"}).code == 2);
 }
 

@@ -2,7 +2,7 @@
 // of them is in the document at a time, so that ten thousand open as fast as ten.
 (() => {
   const [ID, OUTCOME, VERTICES, AREA, ANGLE, WITHIN, SECONDS, OUT, PICTURE, PAGE, CODE, REASON,
-    ATTEMPT, REPAIRS] = [...Array(14).keys()];
+    ATTEMPT, REPAIRS, WARNINGS] = [...Array(15).keys()];
   const leafSize = 60, farOut = 1.5;
   const state = {words: '', which: 'all', order: 'outliers', leaf: 0, chosen: ''};
 
@@ -32,6 +32,7 @@
     certified: ['certified', row => row[OUTCOME] === 'certified'],
     done: ['done, without a map', row => row[OUTCOME] === 'done'],
     repaired: ['repaired', row => row[REPAIRS] !== ''],
+    warned: ['with warnings', row => row[WARNINGS].length > 0],
     failed: ['failed', row => row[OUTCOME] === 'failed'],
     open: ['not run', row => row[OUTCOME] === 'open'],
   };
@@ -45,7 +46,7 @@
     select.addEventListener('change', () => show({[key]: select.value, leaf: 0, chosen: ''}));
     return select;
   };
-  const words = element('input', {type: 'search', placeholder: 'name or reason'});
+  const words = element('input', {type: 'search', placeholder: 'name, reason, warning'});
   words.addEventListener('input', () => show({words: words.value, leaf: 0, chosen: ''}));
   const which = choice(kinds, 'which'), order = choice(orders, 'order');
   const before = element('button', {type: 'button'}, '‹ back');
@@ -97,6 +98,7 @@
     if (row[REPAIRS]) made.append(' ', element('span', {class: 'badge repaired'}, 'repaired'));
     made.append(facts(row));
     if (row[REPAIRS]) made.append(element('p', {}, row[REPAIRS]));
+    for (const warning of row[WARNINGS]) made.append(element('p', {}, `warning: ${warning}`));
     if (row[REASON]) made.append(element('p', {}, `code ${row[CODE]}: ${row[REASON]}`));
     if (row[ATTEMPT] > 1) made.append(element('p', {}, `attempt ${row[ATTEMPT]}`));
     made.append(links(row, results));
@@ -107,7 +109,7 @@
   const selected = () => {
     const text = state.words.toLowerCase();
     const found = rows.filter(row => kinds[state.which][1](row) &&
-      (!text || (row[ID] + ' ' + row[REASON]).toLowerCase().includes(text)));
+      (!text || [row[ID], row[REASON], ...row[WARNINGS]].join(' ').toLowerCase().includes(text)));
     return found.sort(orders[state.order][1]);
   };
   const show = change => {

@@ -208,6 +208,7 @@ class ItemRun {
   void complete() {
     record_.log = small_file(staged_ + "/log").value_or("");
     record_.head.repairs = repairs_of(record_.steps);
+    record_.head.warnings = warnings_in(record_.log);
     record_.head.seconds = stopwatch_.seconds();
     record_.head.cpu_seconds = cpu_seconds_so_far();
     record_.head.ended = std::time(nullptr);
@@ -253,6 +254,7 @@ bool record_crash(const ItemSetting& setting, const BatchItem& item, const std::
   record.log = small_file(staged + "/log").value_or("");
   record.head.code = code;
   record.head.reason = reason_of_end(code, record.log);
+  record.head.warnings = warnings_in(record.log);
   record.head.cpu_seconds = record.head.seconds = cpu_seconds;
   record.head.ended = std::time(nullptr);
   publish_failure(setting.folder, staged, record);

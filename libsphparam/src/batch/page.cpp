@@ -33,6 +33,7 @@ constexpr std::size_t named_outliers = 8;
 /// What the page shows of an item; figures of its first step that has them.
 struct Shape {
   std::string outcome = "open", reason, repairs;
+  std::vector<std::string> warnings;
   std::string page;               // of its own; empty: none
   std::string picture;            // below the folder of the batch; empty: none
   std::string unwritten_picture;  // why it could not be kept there
@@ -68,6 +69,8 @@ Shape shape_of(const std::string& folder, const BatchItem& item) {
   shape.outcome = record.value("outcome", "open");
   shape.reason = without_folders(stored->head.reason, item);
   shape.repairs = stored->head.repairs;
+  for (const std::string& warning : stored->head.warnings)
+    shape.warnings.push_back(without_folders(warning, item));
   shape.code = stored->head.code;
   shape.attempt = stored->head.attempt;
   shape.seconds = stored->head.cpu_seconds;
@@ -114,7 +117,8 @@ Json row_json(const BatchItem& item, const Shape& shape, double outlyingness) {
           shape.code,
           shape.reason,
           shape.attempt,
-          shape.repairs};
+          shape.repairs,
+          shape.warnings};
 }
 
 /// A figure of all shapes, with its plot and who is far out.
@@ -170,6 +174,7 @@ void add_counts(Page& page, const BatchStatus& status, const std::vector<Shape>&
                     {"certified", grouped(certified)},
                     {"done, without a map", grouped(static_cast<long>(status.done) - certified)},
                     {"repaired", grouped(static_cast<long>(status.repaired))},
+                    {"with warnings", grouped(static_cast<long>(status.warned))},
                     {"failed", grouped(static_cast<long>(status.failed))},
                     {"CPU time", duration(cpu)}});
 }

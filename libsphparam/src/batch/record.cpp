@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -101,6 +102,7 @@ class HeadReader : public nlohmann::json_sax<nlohmann::json> {
     if (key_ == "program") head.program = value;
     if (key_ == "reason") head.reason = value;
     if (key_ == "repairs") head.repairs = value;
+    if (key_ == "warnings" && list_ == 1) head.warnings.push_back(value);
     if (in_file()) {
       BatchFile& file = head.files.back();
       (file.name.empty() ? file.name : file.hash) = value;
@@ -189,6 +191,7 @@ std::string to_json(const BatchRecord& record) {
                {"ended", head.ended},
                {"reason", head.reason},
                {"repairs", head.repairs},
+               {"warnings", head.warnings},
                {"files", files_json(head.files)},
                {"id", record.id},
                {"path", record.path},
@@ -282,6 +285,17 @@ std::string reason_in(std::string_view log) {
                           std::min(lines[i + 1].find_first_not_of(' '), lines[i + 1].size()));
   }
   return reason.empty() ? verdict_in(lines) : reason;
+}
+
+std::vector<std::string> warnings_in(std::string_view log) {
+  constexpr std::string_view mark = "sphparam: warning: ";
+  std::vector<std::string> warnings;
+  for (const std::string& line : lines_of(log)) {
+    if (!line.starts_with(mark)) continue;
+    std::string warning = line.substr(mark.size());
+    if (std::ranges::count(warnings, warning) == 0) warnings.push_back(std::move(warning));
+  }
+  return warnings;
 }
 
 }  // namespace sphparam

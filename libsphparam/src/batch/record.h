@@ -36,9 +36,10 @@ struct BatchRecordHead {
   std::string input, options, program;  // hashes; input is empty where it could not be read
   FileStamp stamp;                      // of the input as it was read; all 0: not to be trusted
   double seconds = 0, cpu_seconds = 0;
-  std::int64_t ended = 0;  // seconds since 1970
-  std::string reason;      // of a failure, one line
-  std::string repairs;     // of the mesh: "hole-filled 1; handle-cut 2"; empty: none
+  std::int64_t ended = 0;             // seconds since 1970
+  std::string reason;                 // of a failure, one line
+  std::string repairs;                // of the mesh: "hole-filled 1; handle-cut 2"; empty: none
+  std::vector<std::string> warnings;  // of all steps, each once
   std::vector<BatchFile> files;
 
   bool failed() const { return outcome == BatchOutcome::Failed; }
@@ -84,6 +85,9 @@ std::string without_folders(std::string reason, const BatchItem& item);
 
 /// What failed, in a line: the last error in a log, or else what the last step says it found.
 std::string reason_in(std::string_view log);
+
+/// What its steps warned of, in their order, each once.
+std::vector<std::string> warnings_in(std::string_view log);
 
 /// The bytes of a small file; nothing where there is none. Throws: ReadError.
 std::optional<std::string> small_file(const std::string& path);

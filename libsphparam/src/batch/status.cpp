@@ -97,6 +97,7 @@ std::string done_text(const BatchStatus& status) {
   if (status.certified > 0)
     told.push_back(std::to_string(status.certified) + " certified one-to-one");
   if (status.repaired > 0) told.push_back(std::to_string(status.repaired) + " repaired");
+  if (status.warned > 0) told.push_back(std::to_string(status.warned) + " with warnings");
   return told.empty() ? "" : "  of the done: " + joined(told) + "\n";
 }
 
@@ -130,6 +131,7 @@ BatchStatus batch_status(const std::string& folder, const BatchPlan& plan, int t
     ++(head->failed() ? status.failed : status.done);
     status.certified += head->outcome == BatchOutcome::Certified;
     status.repaired += !head->failed() && !head->repairs.empty();
+    status.warned += !head->failed() && !head->warnings.empty();
     status.to_retry += head->retry;
   }
   status.running = static_cast<std::size_t>(count_staging(folder));
@@ -181,6 +183,7 @@ std::string to_json(const BatchStatus& status) {
       {"done", status.done},
       {"certified", status.certified},
       {"repaired", status.repaired},
+      {"warned", status.warned},
       {"failed", status.failed},
       {"to_retry", status.to_retry},
       {"open", status.open()},

@@ -1,5 +1,6 @@
-// Whatever a step's report says in single values is a column, by the way to it; lists have no place
-// in a row. What runs took stands in the last columns: all others are the same for every run.
+// Whatever a step's report says in single values is a column, by the way to it, and so are short
+// lists of real numbers; other lists have no place in a row. What runs took stands in the last
+// columns: all others are the same for every run.
 
 #include <algorithm>
 #include <filesystem>
@@ -20,6 +21,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Cells = std::vector<std::pair<std::string, std::string>>;  // column, value
 
+constexpr std::size_t most_numbers = 16;  // of a list that has columns
+
 std::string text_of(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_boolean()) return value.get<bool>() ? "true" : "false";
@@ -30,36 +33,63 @@ std::string text_of(const Json& value) {
 /// Not figures: where things lie, and the version, which is said once.
 bool is_no_figure(const std::string& key) {
   return key == "sphparam" || key == "command" || key == "outputs" || key == "file" ||
-         key == "seconds" || key == "viewer";
+         key == "seconds" || key == "viewer" || key == "sidecar" || key == "textures";
 }
+
+/// "map", and "map2" of the second `map` of a pipeline.
+std::string numbered(const std::string& name, std::map<std::string, int>& seen) {
+  const int count = ++seen[name];
+  return count == 1 ? name : name + std::to_string(count);
+}
+
+/// Which key says what an entry of a list is called: an image its map, a function its name.
+const char* title_key(const Json& entry) {
+  for (const char* const key : {"map", "name"})
+    if (entry.is_object() && entry.contains(key) && entry[key].is_string()) return key;
+  return nullptr;
+}
+
+void flatten_list(const Json& list, const std::string& name, Cells& cells);
 
 void flatten(const Json& json, const std::string& name, Cells& cells) {
   if (json.is_object()) {
     for (const auto& [key, value] : json.items())
       if (!is_no_figure(key)) flatten(value, name + "." + key, cells);
-  } else if (!json.is_array() && !json.is_null()) {
+  } else if (json.is_array()) {
+    flatten_list(json, name, cells);
+  } else if (!json.is_null()) {
     cells.emplace_back(name, text_of(json));
   }
 }
 
-/// "map", and "map2" of the second `map` of a pipeline.
-std::string column_prefix(const std::string& subcommand, std::map<std::string, int>& seen) {
-  const int count = ++seen[subcommand];
-  return count == 1 ? subcommand : subcommand + std::to_string(count);
+/// Entries with names have columns by these; real numbers (axes, ranges, boxes) by their place,
+/// where they are few. Whole numbers name vertices and faces, others in each row.
+void flatten_list(const Json& list, const std::string& name, Cells& cells) {
+  std::map<std::string, int> seen;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    Json entry = list[i];
+    if (const char* const key = title_key(entry)) {
+      const std::string title = numbered(entry[key].get<std::string>(), seen);
+      entry.erase(key);
+      flatten(entry, name + "." + title, cells);
+    } else if (list.size() <= most_numbers && (entry.is_number_float() || entry.is_array())) {
+      flatten(entry, name + "." + std::to_string(i), cells);
+    }
+  }
 }
 
 Cells figures_of(const Json& record) {
   Cells cells;
   std::map<std::string, int> seen;
   for (const Json& step : record.value("steps", Json::array())) {
-    const std::string prefix = column_prefix(step["command"].at(0).get<std::string>(), seen);
+    const std::string prefix = numbered(step["command"].at(0).get<std::string>(), seen);
     if (step["report"].is_object()) flatten(step["report"], prefix, cells);
   }
   return cells;
 }
 
 const std::vector<std::string> first_columns = {"id",     "path",    "outcome", "code",
-                                                "reason", "attempt", "repairs"};
+                                                "reason", "attempt", "repairs", "warnings"};
 const std::vector<std::string> last_columns = {"seconds", "cpu_seconds", "peak_bytes",
                                                "ended",   "host",        "sphparam"};
 
@@ -78,7 +108,8 @@ Row row_of(const std::string& folder, const BatchItem& item) {
   for (const auto& columns : {first_columns, last_columns})
     for (const std::string& name : columns)
       if (name != "id" && name != "path" && record.contains(name))
-        row.own[name] = text_of(record[name]);
+        row.own[name] =
+            record[name].is_array() ? std::to_string(record[name].size()) : text_of(record[name]);
   row.cells = figures_of(record);
   return row;
 }

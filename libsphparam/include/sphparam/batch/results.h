@@ -6,11 +6,12 @@
 
 namespace sphparam {
 
-/// One row an item, in the plan's order: id, path, outcome, code, reason, attempt, repairs, then
-/// the columns of the table that it was planned from ("table.NAME" where a column is called so
-/// already), then every figure of the reports of its steps under SUBCOMMAND.KEY, as `--json` names
-/// them (SUBCOMMAND2 of the second such step), then what it took. RFC 4180 but for the separator,
-/// UTF-8. Throws: ReadError. Cost: reads all records.
+/// One row an item, in the plan's order: id, path, outcome, code, reason, attempt, repairs, how many
+/// warnings, then the columns of the table that it was planned from ("table.NAME" where a column is
+/// called so already), then the figures of the reports of its steps under SUBCOMMAND.KEY, as
+/// `--json` names them (SUBCOMMAND2 of the second such step), then what it took. Of lists there are
+/// up to 16 real numbers, under KEY.0, KEY.1 …, and what has a name or is an image of a map, under
+/// KEY.NAME. RFC 4180 but for the separator, UTF-8. Throws: ReadError. Cost: reads all records.
 std::string batch_table(const std::string& folder, const BatchPlan& plan, int threads = 0,
                         char separator = ',');
 

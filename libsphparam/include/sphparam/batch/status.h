@@ -11,7 +11,7 @@ namespace sphparam {
 
 /// Failures that are alike: the same exit code and, but for names and numbers, the same message.
 struct BatchFailures {
-  int code = 0;        // 128 + N: signal N
+  int code = 0;  // 128 + N: signal N
   /// Of several that are not equal with NAME for a shape's name and numbers that differ from the
   /// least to the greatest.
   std::string reason;
@@ -25,6 +25,7 @@ struct BatchStatus {
   std::size_t done = 0, failed = 0;
   std::size_t certified = 0;  // of the done: a map is proved one-to-one
   std::size_t repaired = 0;   // of the done: their meshes were mended
+  std::size_t warned = 0;     // of the done: a step warned of something
   std::size_t to_retry = 0;   // of the failed: to be tried again
   std::size_t running = 0;    // folders below `staging` whose processes live, or may live elsewhere
   std::vector<BatchFailures> failures = {};  // most first
