@@ -159,14 +159,27 @@ def test_texts_that_begin_as_a_class_does_are_no_classes(tmp_path):
     document(names)
 
 
+def wheel_backend():
+    import importlib.util
+
+    spec = importlib.util.spec_from_file_location("wheel_backend", package.parent / "wheel_backend.py")
+    backend = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(backend)
+    return backend
+
+
+@pytest.mark.parametrize("version, needed", [("2.10.3", "numpy<2"), ("2.12.0", "numpy"), ("3.0.1", "numpy")])
+def test_a_wheel_asks_for_the_numpy_that_its_module_can_read(version, needed, tmp_path):
+    (tmp_path / "CMakeCache.txt").write_text(f"OTHER:PATH=/\npybind11_DIR:PATH={tmp_path}\n")
+    (tmp_path / "pybind11ConfigVersion.cmake").write_text(f'set(PACKAGE_VERSION "{version}")\n')
+    assert wheel_backend()._numpy(tmp_path) == needed
+
+
 def test_wheels_are_made_by_every_python_that_they_are_for(monkeypatch):
     """Before 3.11 there is no `tomllib`; the package `tomli` is the same."""
-    import importlib.util
     import tomllib
 
     monkeypatch.setitem(sys.modules, "tomllib", None)
     monkeypatch.setitem(sys.modules, "tomli", tomllib)
-    spec = importlib.util.spec_from_file_location("wheel_backend", package.parent / "wheel_backend.py")
-    backend = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(backend)
+    backend = wheel_backend()
     assert backend._project()["version"] == sp.__version__ and backend._project()["requires-python"] == ">=3.10"

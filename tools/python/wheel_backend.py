@@ -58,6 +58,13 @@ def _build(build, staged):
         subprocess.run(command, check=True)
 
 
+def _numpy(build):
+    """The NumPy that a module is for: those made with pybind11 before 2.12 cannot read arrays of NumPy 2."""
+    folder = Path(re.search(r"^pybind11_DIR:PATH=(.*)$", (build / "CMakeCache.txt").read_text(), re.MULTILINE)[1])
+    version = re.search(r'PACKAGE_VERSION "(\d+)\.(\d+)', (folder / "pybind11ConfigVersion.cmake").read_text())
+    return "numpy<2" if (int(version[1]), int(version[2])) < (2, 12) else "numpy"
+
+
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     """The wheel's name; it lies in `wheel_directory`."""
     from wheel.wheelfile import WheelFile
@@ -68,8 +75,9 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     name = f"{project['name']}-{project['version']}"
     with tempfile.TemporaryDirectory() as work:
         staged = Path(work) / "staged"
-        build = (config_settings or {}).get("build-dir") or Path(work) / "build"
-        _build(Path(build).resolve(), staged)
+        build = Path((config_settings or {}).get("build-dir") or Path(work) / "build").resolve()
+        _build(build, staged)
+        project["dependencies"] = [_numpy(build)]
         about = staged / f"{name}.dist-info"
         about.mkdir()
         (about / "METADATA").write_text(_metadata(project))
