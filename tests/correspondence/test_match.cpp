@@ -298,6 +298,34 @@ TEST_CASE("match: random pairs of random spheres are certified whatever their la
   CHECK(matched > 500);
 }
 
+TEST_CASE(
+    "match: a surface that is inside out beside one that is not is told, alike ones are not") {
+  const auto named = [](TriangleMesh mesh, const char* name) {
+    SphereMap map = parameterize(mesh).map;
+    MeshFile file;
+    file.mesh = std::move(mesh);
+    return MappedMesh({.file = std::move(file), .map = std::move(map), .name = name});
+  };
+  TriangleMesh turned = bumpy(3);
+  turned.triangles.col(1).swap(turned.triangles.col(2));
+  const MappedMesh out = named(bumpy(3), "out.ply"), in = named(turned, "in.vtp"),
+                   high = named({turned.positions * 1e75, turned.triangles}, "high.vtp");
+  const std::string told =
+      "in.vtp is inside out and out.ply is not, so that the map between them mirrors: "
+      "--repair=orientation turns it over";
+  const MatchOptions options{.landmarks = with_itself(out.mesh(), 1)};
+  CHECK(match_surfaces(out, in, options).warnings.at(0) == told);
+  CHECK(match_surfaces(in, out, options).warnings.at(0) == told);
+  CHECK_THAT(match_surfaces(out, high, options).warnings.at(0),
+             Catch::StartsWith("high.vtp is inside out and out.ply is not"));
+  CHECK(match_surfaces(in, in, options).warnings.empty());
+  CHECK(match_surfaces(out, out, options).warnings.empty());
+  const MatchOptions many{.landmarks = with_itself(out.mesh(), 8)};
+  CHECK_THROWS_WITH(
+      match_surfaces(in, out, many),
+      Catch::StartsWith("the landmarks look mirrored") && Catch::EndsWith("; " + told));
+}
+
 TEST_CASE("match: the distortion of the identity is none") {
   const MappedMesh shape = mapped(bumpy(3));
   const DistortionSummary d = summarise(measure_distortion(SurfaceMap(shape, shape)));

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -309,6 +310,34 @@ TEST_CASE("group: fillers of kept holes have no weight, wherever they lie") {
     if (areas[v] == 0) CHECK(high.weights[v] == 0);
   CHECK(high.weights.sum() == Approx(1));
   for (size_t i = 0; i < 3; ++i) CHECK(high.members[i].resampling_max < 1e-12);
+}
+
+TEST_CASE("group: a shape that is inside out beside the template is told, and once") {
+  const TriangleMesh shape = bumpy(small_grid);
+  TriangleMesh turned = shape;
+  turned.triangles.col(1).swap(turned.triangles.col(2));
+  std::vector<MappedMesh> shapes;
+  for (const TriangleMesh& mesh : {shape, turned, shape}) {
+    MeshFile file;
+    file.mesh = mesh;
+    shapes.push_back(MappedMesh({.file = std::move(file),
+                                 .map = parameterize(mesh).map,
+                                 .name = std::to_string(shapes.size()) + ".vtp"}));
+  }
+  for (const GroupStart start : {GroupStart::Ends, GroupStart::Rotation, GroupStart::Ellipsoid}) {
+    const Group group = make_group(shapes, shapes[0], {.start = start, .grid = small_grid});
+    const auto count = [&](size_t i) {
+      return std::ranges::count(group.members[i].warnings,
+                                "1.vtp is inside out and 0.vtp is not, so that the map between "
+                                "them mirrors: --repair=orientation turns it over");
+    };
+    CHECK(count(0) == 0);
+    CHECK(count(1) == 1);
+    CHECK(count(2) == 0);
+    for (const GroupMember& member : group.members)
+      for (const std::string& warning : member.warnings)
+        CHECK((&member == &group.members[1] || warning.find("inside out") == std::string::npos));
+  }
 }
 
 TEST_CASE("group: a shape whose area is beyond doubles is refused by its name") {

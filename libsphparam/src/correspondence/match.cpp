@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "correspondence/coarse_to_fine.h"
+#include "correspondence/facing.h"
 #include "correspondence/feature_match.h"
 #include "correspondence/landmark_search.h"
 #include "correspondence/landmark_sides.h"
@@ -272,7 +273,15 @@ Match match_surfaces(const MappedMesh& from, const MappedMesh& to, const MatchOp
   require_area(from);
   require_area(to);
   if (options.features) require_features(*options.features, from, to);
-  return Matcher(from, to, options).run();
+  const std::optional<std::string> facing = opposite_facing(from, to);
+  try {
+    Match match = Matcher(from, to, options).run();
+    if (facing) match.warnings.insert(match.warnings.begin(), *facing);
+    return match;
+  } catch (const MirroredLandmarks& error) {
+    if (!facing) throw;
+    throw MirroredLandmarks(error.what() + ("; " + *facing));
+  }
 }
 
 }  // namespace sphparam

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "correspondence/facing.h"
 #include "correspondence/surface_area.h"
 #include "embedding/energy/energy_domain.h"
 #include "group/into_correspondence.h"
@@ -238,7 +239,10 @@ class GroupWork {
                         .energy = brought.energy,
                         .confidence = brought.confidence,
                         .warnings = std::move(brought.doubts)});
-      std::ranges::move(brought.warnings, std::back_inserter(result.back().warnings));
+      std::vector<std::string>& warnings = result.back().warnings;
+      std::ranges::move(brought.warnings, std::back_inserter(warnings));
+      if (auto facing = opposite_facing(shapes_[i], reference_))
+        warnings.insert(warnings.begin(), *std::move(facing));
     }
     SideBySide work(std::ssize(result), options_.threads, options_.progress);
     work.run("measure", [&](size_t i) { measure_resampling(result[i]); });

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "correspondence/facing.h"
 #include "correspondence/surface_area.h"
 #include "number_text.h"
 #include "sphparam/correspondence/map_alignment.h"
@@ -65,6 +66,8 @@ Brought by_rotation(const GroupTarget& target, const MappedMesh& shape, bool ali
 }
 
 Brought from_match(Match match, std::string start) {
+  if (const auto facing = opposite_facing(match.map.from(), match.map.to()))
+    std::erase(match.warnings, *facing);  // a group tells it once, however often it is matched
   return {.mapped = match.map.from(),
           .start = std::move(start),
           .energy = match.energy,

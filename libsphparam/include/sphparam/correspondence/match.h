@@ -63,8 +63,9 @@ struct Match {
   /// where another is as good, 1 where there is none.
   double confidence = 1;
   double agreement = 0;  // of features: their correlation by the map, the mean over columns
-  /// For people: landmarks that a mirror image fits as well, area that shrinks to nothing on the
-  /// other surface, little confidence, features of which one side lacks a part or has other signs.
+  /// For people: a surface that is inside out where the other is not, landmarks that a mirror image
+  /// fits as well, area that shrinks to nothing on the other surface, little confidence, features
+  /// of which one side lacks a part or has other signs.
   std::vector<std::string> warnings;
 };
 
