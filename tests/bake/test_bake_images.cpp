@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -174,6 +175,63 @@ TEST_CASE("bake images: far from the origin integers keep the digits that float3
   CHECK(baked(300, "position", "some.exr").warnings.empty());
 }
 
+TEST_CASE("bake images: properties far from 0 keep the digits that float32 has not") {
+  const Folder folder;
+  // A value a vertex: origin + extent · (z + 1) / 2, from pole to pole.
+  const auto baked = [&](double origin, double extent, const std::string& name) {
+    MeshFile file;
+    file.mesh = icosphere(3);
+    SphereMap map{file.mesh.positions};
+    Property scalar{"p", ScalarType::Float64, {}};
+    const VectorX z = file.mesh.positions.col(2);
+    for (const double height : z)
+      scalar.values.push_back(origin +
+                              extent * (height - z.minCoeff()) / (z.maxCoeff() - z.minCoeff()));
+    file.set_vertex_property(std::move(scalar));
+    const MappedMesh mapped({.file = std::move(file), .map = std::move(map), .name = "ball"});
+    return bake(mapped, {{"scalar:p", folder / name}}, small);
+  };
+  baked(0, 1, "near.tif");
+  const Image near = read_image(folder / "near.tif");
+  for (const double origin : {101325.0, 1e8, -1e8}) {
+    INFO(origin);
+    const BakeReport report = baked(origin, 0.5, "far.tif");
+    CHECK(report.warnings.empty());
+    CHECK(report.images[0].range == std::pair(origin, origin + 0.5));
+    CHECK(report.images[0].beyond == 0);
+    const Image far = read_image(folder / "far.tif");
+    for (size_t i = 0; i < near.pixels.size(); ++i)
+      REQUIRE(far.pixels[i] == Approx(near.pixels[i]).margin(1.01 / 65535));
+  }
+
+  const BakeReport floats = baked(1e8, 100, "far.exr");
+  CHECK(floats.warnings ==
+        std::vector<std::string>{"scalar:p: so far from 0, numbers of 32 bits are 8 apart, 8 % of "
+                                 "its range: depth u16 (.png, .tif) keeps more"});
+  for (const float value : read_image(folder / "far.exr").pixels)
+    REQUIRE((value >= 1e8F && value <= 1e8F + 104 && std::fmod(value, 8.0F) == 0));
+  CHECK(baked(101325, 4000, "some.exr").warnings.empty());
+}
+
+TEST_CASE("bake images: a property of one value is that value in floats, and lies in its range") {
+  const Folder folder;
+  for (const double constant : {101325.0, 0.1, -3e-7, 0.0}) {
+    INFO(constant);
+    MappedMesh whole = egg(3);
+    MeshFile file = whole.file();
+    const auto count = static_cast<size_t>(file.mesh.vertex_count());
+    file.set_vertex_property({"c", ScalarType::Float64, std::vector<double>(count, constant)});
+    const MappedMesh source({.file = std::move(file), .map = whole.map(), .name = "egg"});
+    const BakeReport report =
+        bake(source, {{"scalar:c", folder / "c.exr"}, {"scalar:c", folder / "c.tif"}}, small);
+    CHECK(report.warnings.empty());
+    CHECK(report.images[1].range == std::pair(constant, constant));
+    CHECK(report.images[1].beyond == 0);
+    for (const float value : read_image(folder / "c.exr").pixels)
+      REQUIRE(value == static_cast<float>(constant));
+  }
+}
+
 TEST_CASE("bake images: where one cannot be baked none is written") {
   const Folder folder;
   CHECK_THROWS_AS(
@@ -265,11 +323,11 @@ TEST_CASE(
 
 TEST_CASE("bake images: labels are whole in the samples that they get, or refused") {
   const Folder folder;
-  const auto labelled = [](double most) {
+  const auto labelled = [](double most, double least = 0) {
     MeshFile file;
     file.mesh = icosphere(2);
     SphereMap map{file.mesh.positions};
-    Property label{"label", ScalarType::Int32, std::vector<double>(320, 0.0)};
+    Property label{"label", ScalarType::Int32, std::vector<double>(320, least)};
     label.values.back() = most;
     file.set_face_property(std::move(label));
     return MappedMesh({.file = std::move(file), .map = std::move(map), .name = "labelled"});
@@ -294,6 +352,23 @@ TEST_CASE("bake images: labels are whole in the samples that they get, or refuse
   holds(65535, "l.png", SampleType::Uint16);
   holds(2048, "l.exr", SampleType::Half);
   holds(16777216, "l.exr", SampleType::Float);
+  CHECK_THAT(complaint(70000, "l.png", SampleType::Uint16),
+             Catch::EndsWith("goes up to 70000; float holds them, in a .tif or .exr"));
+  CHECK_THAT(complaint(30000, "l.png", SampleType::Uint8),
+             Catch::EndsWith("goes up to 30000; u16 holds them, in a .png or .tif"));
+  CHECK_THAT(complaint(1e9, "l.png", SampleType::Uint16),
+             Catch::EndsWith("goes up to 1000000000; no image holds these numbers: number them "
+                             "anew"));
+
+  // Beyond what float32 holds, and few steps apart.
+  const auto image =
+      bake(labelled(100000003, 100000001), {{"scalar:label", folder / "l.png"}}, small).images[0];
+  CHECK(image.range->first == 100000001);
+  std::set<double> labels;
+  for (const float value : read_image(folder / "l.png").pixels)
+    labels.insert(100000001 +
+                  std::round(static_cast<double>(value) * (image.range->second - 100000001)));
+  CHECK(labels == std::set<double>{100000001, 100000003});
 }
 
 TEST_CASE("bake images: labels are whole again by scale and offset, to the last bit") {

@@ -45,22 +45,39 @@ double exact_numbers(SampleType type) {
   }
 }
 
+/// How far a type has to count for the labels of a field: integers begin at the least one.
+double needed_for(const SurfaceField& field, SampleType type) {
+  const auto [least, greatest] = *field.range;
+  const double origin = field.origin_of(0);
+  return is_integer(type) ? greatest - least
+                          : std::max(std::abs(least + origin), std::abs(greatest + origin));
+}
+
+/// What holds the labels that this type does not, if any does.
+std::string other_depth(const SurfaceField& field, SampleType type) {
+  const auto holds = [&field](SampleType other) {
+    return needed_for(field, other) <= exact_numbers(other);
+  };
+  if (type != SampleType::Uint16 && holds(SampleType::Uint16))
+    return "; u16 holds them, in a .png or .tif";
+  if (type != SampleType::Float && holds(SampleType::Float))
+    return "; float holds them, in a .tif or .exr";
+  return "; no image holds these numbers: number them anew";
+}
+
 /// Numbers that are rounded would name other faces.
 void require_exact_labels(const PlannedImage& image) {
   if (image.field.kind != FieldKind::Label || !image.field.range ||
       image.field.proper_channels() > 1)
     return;
-  const auto [least, greatest] = *image.field.range;
   const SampleType type = image.file.sample_type;
-  const double most = exact_numbers(type);
-  const double needed =
-      is_integer(type) ? greatest - least : std::max(std::abs(least), std::abs(greatest));
+  const double most = exact_numbers(type), needed = needed_for(image.field, type);
   if (needed <= most) return;
-  throw BakeSettingError(
-      "depth", std::string(name_of(type)) + " holds whole numbers up to " +
-                   std::to_string(std::lround(most)) + " exactly; " + image.field.name +
-                   " goes up to " + std::to_string(std::lround(needed)) +
-                   (type == SampleType::Float ? "" : "; float holds more, in a .tif or .exr"));
+  throw BakeSettingError("depth", std::string(name_of(type)) + " holds whole numbers up to " +
+                                      std::to_string(std::lround(most)) + " exactly; " +
+                                      image.field.name + " goes up to " +
+                                      std::to_string(std::lround(needed)) +
+                                      other_depth(image.field, type));
 }
 
 /// From label to label as large a power of two of an integer type's steps as fits: range / full
@@ -135,18 +152,27 @@ BakeOptions engine_options(const BakeSettings& settings, const char* stage) {
 
 namespace {
 
-/// How far apart the numbers of 32 bits are where a field of a mesh of this length lies.
-double float_step(const SurfaceField& field, double side) {
-  const double most =
-      std::max({std::abs(field.origin[0]), std::abs(field.origin[1]), std::abs(field.origin[2])});
-  return std::ldexp(1.0, std::ilogb(most + side) - (std::numeric_limits<float>::digits - 1));
+bool is_scalar(const SurfaceField& field) { return field.name.starts_with("scalar:"); }
+
+/// How far apart the numbers of 32 bits are where a field of this extent lies.
+double float_step(const SurfaceField& field, double extent) {
+  double most = 0;
+  for (const double origin : field.origin)
+    most = std::max({most, std::abs(origin), std::abs(origin + extent)});
+  return std::ldexp(1.0, std::ilogb(most) - (std::numeric_limits<float>::digits - 1));
 }
 
+/// What floats lose of a field that is far from 0; empty where that is next to nothing.
 std::string rounding_line(const SurfaceField& field, const BakeScene& scene) {
-  const double side = longest_side(scene.source.mesh()), step = float_step(field, side);
-  return field.name + ": so far from the origin, numbers of 32 bits are " + short_number(step) +
-         " apart, " + percent(step / side) +
-         " of the mesh's length: depth u16 (.png, .tif) keeps more, or move the mesh nearer";
+  constexpr double nothing = 0x1p-17;  // of the extent: what is lost by is_far is more
+  const bool of_lengths = !is_scalar(field);
+  const double extent = of_lengths ? longest_side(scene.source.mesh()) : field.range->second;
+  const double step = float_step(field, extent);
+  if (field.kind == FieldKind::Label || extent == 0 || step < nothing * extent) return "";
+  return field.name + ": so far from " + (of_lengths ? "the origin" : "0") +
+         ", numbers of 32 bits are " + short_number(step) + " apart, " + percent(step / extent) +
+         " of " + (of_lengths ? "the mesh's length" : "its range") +
+         ": depth u16 (.png, .tif) keeps more" + (of_lengths ? ", or move the mesh nearer" : "");
 }
 
 }  // namespace
@@ -157,7 +183,8 @@ std::vector<std::string> warnings_of(const std::vector<PlannedImage>& images,
   for (const PlannedImage& image : images) {
     const SurfaceField& field = image.field;
     if (field.is_far() && !is_integer(image.file.sample_type))
-      warnings.push_back(rounding_line(field, scene));
+      if (std::string line = rounding_line(field, scene); !line.empty())
+        warnings.push_back(std::move(line));
     if (settings.fields.heat && field.kind == FieldKind::Data)
       warnings.push_back(field.name +
                          ": numbers, not colours: heat is of distortion and curvature");

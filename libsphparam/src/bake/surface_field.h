@@ -80,8 +80,8 @@ struct SurfaceField {
   std::vector<std::pair<std::string, std::string>> texts = {};  // more metadata of its own
   // Where values of integer images come from and go to; none: known only once all are baked.
   std::optional<std::pair<double, double>> range = std::nullopt;
-  // What is added to values and range, a channel: far from the origin, for the size of a mesh,
-  // float32 would round away what is told of it. 0 elsewhere.
+  // What is added to values and range, a channel: far from 0, for their extent, float32 would round
+  // away what tells them apart. 0 elsewhere.
   std::array<double, 3> origin = {};
   bool calm = false;  // shows nothing of what walls hide: see CalmWalls
 

@@ -50,10 +50,19 @@ Json projection_json(const BakeRecord& record) {
           {"farthest", shares.farthest}};
 }
 
+/// In as many digits as tell them apart.
+std::string ends_in_words(const std::pair<double, double>& range) {
+  constexpr int fewest = 3, most = 17;
+  const auto [low, high] = range;
+  int digits = fewest;
+  while (low < high && digits < most && short_number(low, digits) == short_number(high, digits))
+    ++digits;
+  return short_number(low, digits) + " to " + short_number(high, digits);
+}
+
 std::string beyond_words(const BakedImage& image) {
   if (!(image.beyond > 0) || !image.range) return "";
-  return "; " + percent(image.beyond) + " of the texels lie beyond " +
-         short_number(image.range->first) + " to " + short_number(image.range->second) +
+  return "; " + percent(image.beyond) + " of the texels lie beyond " + ends_in_words(*image.range) +
          ", and end there";
 }
 

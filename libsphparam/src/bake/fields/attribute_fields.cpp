@@ -62,19 +62,42 @@ std::uint32_t mixed(std::uint32_t x) {
   return x ^ x >> 12;
 }
 
+/// What a property's values are counted from: the least of those whose digits float32 has not.
+double origin_of(const Property& property, const std::pair<double, double>& range) {
+  constexpr double whole = 1 << 24;  // numbers up to it are whole in float32
+  // Sums of samples lose some roundings: 2^-20 of the extent, a sixteenth of a step of 16 bits. And
+  // what float32 holds is again what it was, once the origin is added.
+  constexpr double some = 8;
+  const double size = std::max(std::abs(range.first), std::abs(range.second));
+  const double most = is_floating(property.type) ? some * (range.second - range.first) : whole;
+  return size > most ? range.first : 0;
+}
+
 /// A field of labels: `label(face, weights)` is that of a point. Requires: what it refers to
 /// outlives the field.
 template <class LabelAt>
 SurfaceField label_field(SurfaceField described, LabelAt label) {
   described.kind = FieldKind::Label;
-  described.evaluate_runs = [label](std::span<const SurfaceRun> runs, float* values) {
+  described.evaluate_runs = [label, origin = described.origin[0]](std::span<const SurfaceRun> runs,
+                                                                  float* values) {
     for (const SurfaceRun& run : runs) {
       for (int i = 0; i < run.count; ++i) {
-        *values++ = static_cast<float>(label(run.face, Vector3(run.first + i * run.step)));
+        const double here = label(run.face, Vector3(run.first + i * run.step));
+        *values++ = static_cast<float>(here - origin);
       }
     }
   };
   return described;
+}
+
+/// A field of numbers that measure, of the property's values at corners.
+template <class ValueAt>
+SurfaceField number_field(SurfaceField described, ValueAt value_at) {
+  const double origin = described.origin[0];
+  return linear_field<1>(std::move(described),
+                         [value_at, origin](Face f, int k, std::array<double, 1>& value) {
+                           value[0] = value_at(f, k) - origin;
+                         });
 }
 
 /// A property of vertices: of numbers that measure, or that name something.
@@ -83,11 +106,7 @@ SurfaceField vertex_field(SurfaceField described, const Triangles& triangles,
   const auto corner = [&triangles, &property](Face f, int k) {
     return property.values[static_cast<size_t>(triangles(f, k))];
   };
-  if (is_floating(property.type)) {
-    return linear_field<1>(
-        std::move(described),
-        [corner](Face f, int k, std::array<double, 1>& value) { value[0] = corner(f, k); });
-  }
+  if (is_floating(property.type)) return number_field(std::move(described), corner);
   return label_field(std::move(described), [corner](Face f, const Vector3& weights) {
     std::array<std::pair<double, double>, 3> labelled;
     for (int k = 0; k < 3; ++k) labelled[static_cast<size_t>(k)] = {corner(f, k), weights[k]};
@@ -101,9 +120,7 @@ SurfaceField face_field(SurfaceField described, const Property& property) {
     return label_field(std::move(described),
                        [value_of](Face f, const Vector3&) { return value_of(f); });
   }
-  return linear_field<1>(
-      std::move(described),
-      [value_of](Face f, int, std::array<double, 1>& value) { value[0] = value_of(f); });
+  return number_field(std::move(described), [value_of](Face f, int) { return value_of(f); });
 }
 
 /// Whose texel it is: a label, one a face, as its number or as a colour.
@@ -218,6 +235,9 @@ SurfaceField make_scalar(const BakeScene& scene, const std::string& name) {
     SurfaceField field{
         .name = "scalar:" + name, .about = "property " + name, .range = range_of(property.values)};
     require_float32(field.name, *field.range);
+    const double origin = origin_of(property, *field.range);
+    field.origin[0] = origin;
+    field.range = std::pair(field.range->first - origin, field.range->second - origin);
     return field;
   };
   if (const Property* property = file.find_vertex_property(name)) {

@@ -4,10 +4,10 @@
 
 namespace sphparam {
 
-/// Whether values of this size, rounded to float32, lose more than some 1e-5 of a mesh's extent.
-inline bool is_far(double size, const Box& box) {
-  constexpr double most = 128;  // 128 · 2^-24 is 0.8e-5
-  return size > most * box.longest_side();
-}
+/// Values of this size, rounded to float32, lose more than some 1e-5 of their extent where they are
+/// larger by more than this: 128 · 2^-24 is 0.8e-5.
+constexpr double far_by = 128;
+
+inline bool is_far(double size, const Box& box) { return size > far_by * box.longest_side(); }
 
 }  // namespace sphparam
