@@ -271,6 +271,23 @@ def test_a_box_has_hard_edges_where_they_are_asked_for(tmp_path):
     assert (tmp_path / "ours.ply").read_bytes().replace(b"ours_", b"theirs_") == (tmp_path / "theirs.ply").read_bytes()
 
 
+def test_a_map_that_is_there_gets_hard_edges(tmp_path):
+    smooth = sp.map(*box(), values={"a": np.arange(8.0)})
+    smooth.save(tmp_path / "a.sph.ply")
+    for made in (smooth, sp.load(tmp_path / "a.sph.ply")):
+        hard = made.creased(30)
+        assert (hard.points == made.points).all() and hard.certificate.one_to_one and hard.provenance == made.provenance
+        assert (hard.mesh.corner_normals == sp.Mesh(*box()).creased(30).corner_normals).all()
+        assert (hard.values["a"] == np.arange(8)).all() and hard.poles == made.poles and hard.name == made.name
+        with pytest.warns(sp.LossWarning, match="has normals of its own"):
+            assert hard.creased(30) is hard
+    assert smooth.mesh.corner_normals is None
+    with pytest.raises(TypeError, match="degrees: a number"):
+        smooth.creased("much")
+    quads = smooth.remesh("cube:4")
+    assert [list(p) for p in quads.creased(20).polygons] == [list(p) for p in quads.polygons]
+
+
 def test_normals_of_a_meshs_own_say_what_is_hard():
     hard = sp.Mesh(*box()).creased(30)
     with pytest.warns(sp.LossWarning, match="has normals of its own") as told:

@@ -6,6 +6,8 @@
 
 #include "arrays.h"
 #include "binding.h"
+#include "call.h"
+#include "sphparam/io/creases.h"
 #include "sphparam/io/fillers.h"
 #include "sphparam/stopped_by.h"
 
@@ -119,6 +121,25 @@ std::unique_ptr<Source> source_of_mapped(const Mapped& mapped, bool whole) {
   return source;
 }
 
+/// Its mesh with hard edges, and the same map, proved as one that is read is; nothing where the
+/// mesh has normals.
+std::optional<Mapped> creased_map(const Mapped& mapped, double degrees, int threads) {
+  using Found = std::optional<Mapped>;
+  return call(py::none(), [=, mesh = mapped.mesh()](const Progress&) -> Found {
+    MeshFile file = mesh.file();
+    if (!add_creases(file, degrees)) return std::nullopt;
+    return Mapped(MappedMesh({.file = std::move(file),
+                              .map = mesh.map(),
+                              .provenance = mesh.provenance(),
+                              .topology = mesh.topology(),
+                              .polygons = mesh.polygons(),
+                              .notes = mesh.notes(),
+                              .mapped_here = mesh.mapped_here(),
+                              .name = mesh.name()},
+                             threads));
+  });
+}
+
 /// One a face.
 py::array fillers(const Mapped& mapped) {
   FillerMarks marks = mapped.mesh().fillers();
@@ -163,6 +184,7 @@ void declare_mapped(py::module_& module) {
       .def("face_values",
            [](const Mapped& self) { return columns_of(self.mesh().file().face_properties); });
   module.def("source_of_mapped", source_of_mapped);
+  module.def("creased_map", creased_map);
 }
 
 }  // namespace sphparam::python

@@ -31,13 +31,16 @@ py::tuple locate(const Mapped& mapped, const py::array& rows, int threads) {
 
 /// theta and phi of rays, as files have them.
 py::tuple angles(const Mapped& mapped) {
-  const Points& points = mapped.map().points;
-  std::vector<double> theta, phi;
-  for (Eigen::Index v = 0; v < points.rows(); ++v) {
-    const SphericalCoordinates coordinates = to_spherical(points.row(v));
-    theta.push_back(coordinates.theta);
-    phi.push_back(coordinates.phi);
-  }
+  auto [theta, phi] = call(py::none(), [mapped](const Progress&) {
+    const Points& points = mapped.map().points;
+    std::pair<std::vector<double>, std::vector<double>> found;
+    for (Eigen::Index v = 0; v < points.rows(); ++v) {
+      const SphericalCoordinates coordinates = to_spherical(points.row(v));
+      found.first.push_back(coordinates.theta);
+      found.second.push_back(coordinates.phi);
+    }
+    return found;
+  });
   return py::make_tuple(owning(std::move(theta)), owning(std::move(phi)));
 }
 

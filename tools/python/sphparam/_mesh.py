@@ -149,7 +149,7 @@ class Mesh:
         self._require_sound()
         made = _core.creased(self._source, _arrays.real(degrees, "degrees"))
         if made is None:
-            tell([f"{path_told(self.path)}: has normals of its own, which say what is hard"])
+            tell([has_own_normals(path_told(self.path))])
             return self
         other = Mesh._of(made, share=self._share)
         other._welds = self._welds
@@ -236,6 +236,11 @@ class Mesh:
 
     def __repr__(self) -> str:
         return f"<sphparam.Mesh: {len(self.vertices)} vertices, {len(self.faces)} faces, {path_told(self.path)}>"
+
+
+def has_own_normals(name: str) -> str:
+    """A line about a mesh that cannot be given hard edges."""
+    return f"{name}: has normals of its own, which say what is hard"
 
 
 def path_told(path: str) -> str:

@@ -9,6 +9,7 @@ from ._map_facts import mapped_of
 from ._map_files import MapFiles
 from ._map_grids import MapGrids
 from ._map_images import MapImages
+from ._mesh import has_own_normals
 from ._progress import Progress, told
 
 
@@ -33,6 +34,18 @@ class SphereMap(MapDirections, MapImages, MapGrids, MapFiles):
             )
         tell(warnings)
         return SphereMap._of(mapped)
+
+    def creased(self, degrees: float, *, threads: int = 0) -> SphereMap:
+        """The same map of the mesh with hard edges, as :meth:`Mesh.creased` makes them.
+
+        Of how it came about it knows what ``provenance`` says. Where the mesh has normals it comes back as it is, with
+        a warning.
+        """
+        made = _core.creased_map(self._mapped, _arrays.real(degrees, "degrees"), _arrays.threads(threads))
+        if made is None:
+            tell([has_own_normals(self.name)])
+            return self
+        return SphereMap._of(made)
 
     def show(self, *, size: int = 1024) -> str:
         """Opens the page of :meth:`report`, of that ``size``, in a browser; returns where it is."""
