@@ -181,20 +181,12 @@ Parameterization run_from(const SphereMap& map, const TriangleMesh& mesh, const 
   return std::move(work.result);
 }
 
-/// As `require_sphere` makes it, by no more threads than are wanted.
-Topology topology_of(const TriangleMesh& mesh, int threads) {
-  if (mesh.face_count() < 4 || !mesh.positions.allFinite()) return require_sphere(mesh);  // refused
-  Topology topology(mesh, threads);
-  require_sphere(mesh, topology);
-  return topology;
-}
-
 }  // namespace
 
 Parameterization parameterize(const TriangleMesh& mesh, const ParameterizeOptions& options) {
   require_domain(mesh, options);
   report(options.progress, "topology", 0);
-  Parameterization result = run(mesh, topology_of(mesh, options.threads), options);
+  Parameterization result = run(mesh, require_sphere(mesh, options.threads), options);
   give_back_freed_memory();  // before the caller writes the map
   return result;
 }
@@ -216,7 +208,7 @@ Parameterization repair_map(const TriangleMesh& mesh, const SphereMap& map,
   require_domain(mesh, options);
   ParameterizeOptions given = options;
   given.automatic_poles = false;
-  return run_from(with_unit_rays(map), mesh, topology_of(mesh, options.threads), given);
+  return run_from(with_unit_rays(map), mesh, require_sphere(mesh, options.threads), given);
 }
 
 }  // namespace sphparam

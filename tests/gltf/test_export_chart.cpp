@@ -4,6 +4,7 @@
 
 #include "charted.h"
 #include "sphparam/sphere/spherical_coordinates.h"
+#include "support/forks.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;
@@ -88,4 +89,15 @@ TEST_CASE(
     CHECK(chart.chart.counts.nudged_vertices > 50);
     CHECK(chart.chart.certificate.max_shift < 1e-4);
   }
+}
+
+TEST_CASE("export: who is to work by one thread makes no other") {
+  const Charted egg({}, 5);  // several chunks of all loops
+  const GeometryOptions alone{
+      .morph = Morph::Flat, .buffers = {.tangents = true, .theta_phi = true}, .threads = 1};
+  CHECK(stays_alone([&] { egg.geometry(alone); }));
+  GeometryOptions by_two = alone;
+  by_two.threads = 2;
+  CHECK_FALSE(stays_alone([&] { egg.geometry(by_two); }));
+  CHECK(egg.geometry(alone).surface.positions == egg.geometry(by_two).surface.positions);
 }

@@ -1,15 +1,9 @@
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <cmath>
-#include <csignal>
-#include <cstdlib>
-#include <filesystem>
 #include <future>
-#include <iostream>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -17,17 +11,18 @@
 
 #include "embedding/constructions/gnomonic.h"
 #include "embedding/constructions/grid_lift.h"
+#include "sphparam/chart/spherical_chart.h"
 #include "sphparam/errors.h"
 #include "sphparam/parallel.h"
 #include "sphparam/parameterize.h"
 #include "sphparam/stopped_by.h"
+#include "support/forks.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
+using namespace sphparam::tests;
 
 namespace {
-
-constexpr auto patience = std::chrono::seconds(60);
 
 /// Whether two threads meet in one loop.
 bool has_two_threads() {
@@ -40,22 +35,6 @@ bool has_two_threads() {
     if (inside == 2) met = true;
   });
   return met;
-}
-
-/// What waitpid says of a fork that does this and then exits as its answer is, 0 for true; of one
-/// that does not end, that it was killed.
-template <class Work>
-int status_of_fork(const Work& work) {
-  std::cout.flush();
-  const pid_t child = ::fork();
-  if (child == 0) std::exit(work() ? 0 : 1);
-  const auto end = std::chrono::steady_clock::now() + patience;
-  for (;;) {
-    int status = 0;
-    if (::waitpid(child, &status, WNOHANG) != 0) return status;
-    if (std::chrono::steady_clock::now() > end) ::kill(child, SIGKILL);
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
 }
 
 }  // namespace
@@ -227,21 +206,28 @@ TEST_CASE("parallel: sums have the same bits for any number of threads") {
   CHECK(parallel_sum(100000, 5, chunk) == one);
 }
 
+TEST_CASE("parallel: any number of threads below 1 means all cores") {
+  for (const int threads : {0, -1, std::numeric_limits<int>::min()})
+    CHECK(resolve_threads(threads) == std::max(1U, std::thread::hardware_concurrency()));
+  CHECK(resolve_threads(1) == 1);
+  CHECK(resolve_threads(4096) == 4096);
+  const TriangleMesh mesh = icosphere(3);
+  CHECK(parameterize(mesh, {.threads = -7}).map.points == parameterize(mesh).map.points);
+}
+
 TEST_CASE("parallel: who is to work by one thread makes no other") {
-  const TriangleMesh mesh = sphparam::tests::icosphere(5);  // several chunks of all loops
+  const TriangleMesh mesh = icosphere(5);  // several chunks of all loops
   const Topology topology(mesh, 1);
-  const auto stays_alone = [](const auto& work) {
-    return status_of_fork([&] {
-      work();
-      const std::filesystem::directory_iterator tasks("/proc/self/task");
-      return std::distance(begin(tasks), end(tasks)) == 1;
-    });
-  };
-  CHECK(stays_alone([&] { Topology(mesh, 2); }) != 0);
+  CHECK_FALSE(stays_alone([&] { Topology(mesh, 2); }));
   for (const Method method :
        {Method::Progressive, Method::Curvilinear, Method::Paper, Method::Radial})
-    CHECK(stays_alone([&] { parameterize(mesh, {.method = method, .threads = 1}); }) == 0);
-  CHECK(stays_alone([&] { repair_map(mesh, {mesh.positions}, {.threads = 1}); }) == 0);
-  CHECK(stays_alone([&] { gnomonic_embedding(mesh, topology, {.threads = 1}); }) == 0);
-  CHECK(stays_alone([&] { grid_lift(mesh, topology, {.threads = 1}); }) == 0);
+    CHECK(stays_alone([&] { parameterize(mesh, {.method = method, .threads = 1}); }));
+  CHECK(stays_alone([&] { repair_map(mesh, {mesh.positions}, {.threads = 1}); }));
+  CHECK(stays_alone([&] { gnomonic_embedding(mesh, topology, {.threads = 1}); }));
+  CHECK(stays_alone([&] { grid_lift(mesh, topology, {.threads = 1}); }));
+  const int vertices = static_cast<int>(mesh.vertex_count());
+  CHECK(stays_alone([&] { Topology::try_build(mesh.triangles, vertices, 1); }));
+  CHECK(stays_alone([&] { require_sphere(mesh, 1); }));
+  CHECK(
+      stays_alone([&] { certify_chart(spherical_chart(mesh, topology, {mesh.positions}, 1), 1); }));
 }

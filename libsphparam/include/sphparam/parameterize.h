@@ -46,8 +46,13 @@ struct Landmark {
 
 struct ParameterizeOptions {
   Method method = Method::Progressive;
-  std::optional<Poles> poles = std::nullopt;  // chosen automatically when not given
-  bool automatic_poles = true;  // of finished maps; false: no vertices at ±z unless given
+  /// The vertices at ±z, north first. Method::Paper and Method::Curvilinear build the map about
+  /// them, and about a pair of their own choice where none is given; Method::Progressive holds
+  /// given ones while it embeds; Method::Radial takes none.
+  std::optional<Poles> poles = std::nullopt;
+  /// Whether a finished map that has no poles yet, and was given none, is turned and moved so that
+  /// two vertices are at ±z. Not with Method::Radial.
+  bool automatic_poles = true;
   std::optional<Vertex> meridian = std::nullopt;  // gets θ = 0; chosen with automatic poles
   /// Held exactly where the mesh allows it: see `pin_residuals`. Where three of them, or of them
   /// and the poles, fold their triangle, none is tried: a warning names the three.
@@ -70,7 +75,7 @@ struct ParameterizeOptions {
   double sweeps = 1.4;  // of Method::Progressive on the finest level, from 0; more: slower, better
   bool repair = true;   // untangle, and fall back; Method::Paper repairs only when `repair_paper`
   bool repair_paper = false;
-  int threads = 0;              // 0: all cores. The result does not depend on it.
+  int threads = 0;              // 0 or less: all cores. The result does not depend on it.
   bool measure_stages = false;  // folds and distortion after every stage: costs a pass each
   Progress progress = {};
 };
@@ -162,11 +167,14 @@ Parameterization parameterize(const TriangleMesh& mesh, const Topology& topology
 /// Makes a map that came from elsewhere one-to-one: the repair of `parameterize` from a given
 /// start. Few folds are untangled where they are; more, or what stays folded, is embedded anew, and
 /// turned to the directions of the given map. `made_by` says which: "given map" where nothing had
-/// to be done. Poles, meridian and pins that are asked for come last, as there; none are chosen.
+/// to be done. Poles, meridian and pins that are asked for come last, on the map as it is then, as
+/// in `parameterize`; none are chosen.
 ///
-/// Of the options, `paper`, `repair`, `repair_paper` and `automatic_poles` are not read, and
-/// `method` only to hold no pins where it is Method::Paper. Throws: as `parameterize`;
-/// std::invalid_argument also unless there is one finite ray a vertex.
+/// Of the options, `paper`, `repair`, `repair_paper` and `automatic_poles` say nothing here.
+/// `method` makes no map: with Method::Paper pins are not held, which a warning tells; with
+/// Method::Radial, which takes no poles, meridian, pins or directions, more folds are untangled
+/// where they are. Throws: as `parameterize`; std::invalid_argument also unless there is one finite
+/// ray a vertex.
 Parameterization repair_map(const TriangleMesh& mesh, const SphereMap& map,
                             const ParameterizeOptions& options = {});
 

@@ -50,7 +50,7 @@ class ChartCertifier {
   ChartCertificate run(int threads) {
     if (!well_formed()) return std::move(result_);
     const auto topology =
-        Topology::try_build(chart_.triangles, static_cast<int>(chart_.points.rows()));
+        Topology::try_build(chart_.triangles, static_cast<int>(chart_.points.rows()), threads);
     if (topology) examine_closed(&*topology, threads);
     return std::move(result_);
   }

@@ -50,7 +50,7 @@ Entry entry_of_method(AnyMethod method, const TriangleMesh& mesh,
                       const ParameterizeOptions& options) {
   const MethodInfo& info = info_of(method);
   const Stopwatch stopwatch;
-  MethodRun run = run_method(method, mesh, require_sphere(mesh), options);
+  MethodRun run = run_method(method, mesh, require_sphere(mesh, options.threads), options);
   Entry entry = {.name = info.name, .source = info.citation};
   entry.seconds = stopwatch.seconds();
   entry.iterations = run.account ? run.account->iterations : 0;
@@ -65,7 +65,7 @@ Entry entry_of_method(AnyMethod method, const TriangleMesh& mesh,
 Entry entry_of_map(std::string name, std::string source, const TriangleMesh& mesh,
                    const SphereMap& map, int threads) {
   Entry entry = {.name = std::move(name), .source = std::move(source)};
-  entry.certificate = certify(Topology(mesh), map, threads);
+  entry.certificate = certify(Topology(mesh, threads), map, threads);
   const bool usable = entry.certificate.unusable_points.empty();
   entry.map = usable ? normalised(map.points) : map;
   measure(entry, mesh, threads);

@@ -25,6 +25,7 @@ struct Numbering {
   std::vector<int> wedges;             // of each vertex
   std::vector<std::uint32_t> indices;  // three a face
   FloatRows source_uv;                 // of each vertex; empty where not asked for
+  int threads = 0;                     // that rows are gathered by
 };
 
 Numbering number_wedges(const SphericalChart& chart) {
@@ -35,10 +36,11 @@ Numbering number_wedges(const SphericalChart& chart) {
   return numbering;
 }
 
-Numbering number_with_texcoords(const SphericalChart& chart, const MeshFile& mesh) {
+Numbering number_with_texcoords(const SphericalChart& chart, const MeshFile& mesh, int threads) {
   const std::optional<CornerTexcoords> own = texcoords_of(mesh);
   if (!own) throw std::invalid_argument("the mesh has no texture coordinates of its own");
-  const Attributes corners = carry_corner_attribute(chart, mesh.mesh.triangles, Attributes(*own));
+  const Attributes corners =
+      carry_corner_attribute(chart, mesh.mesh.triangles, Attributes(*own), threads);
   DistinctRows<float, 3> distinct(static_cast<size_t>(chart.wedge_count()));
   Numbering numbering;
   for (Eigen::Index corner = 0; corner < corners.rows(); ++corner) {
@@ -61,11 +63,13 @@ template <class Rows>
 FloatRows gather(const Rows& rows, const Numbering& numbering) {
   constexpr std::int64_t chunk_size = 16384;
   FloatRows gathered(static_cast<Eigen::Index>(numbering.wedges.size()), rows.cols());
-  parallel_for(gathered.rows(), chunk_size, 0, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i) {
-      gathered.row(i) = rows.row(numbering.wedges[static_cast<size_t>(i)]).template cast<float>();
-    }
-  });
+  parallel_for(gathered.rows(), chunk_size, numbering.threads,
+               [&](std::int64_t first, std::int64_t last) {
+                 for (std::int64_t i = first; i < last; ++i) {
+                   gathered.row(i) =
+                       rows.row(numbering.wedges[static_cast<size_t>(i)]).template cast<float>();
+                 }
+               });
   return gathered;
 }
 
@@ -141,7 +145,8 @@ std::vector<std::array<std::uint16_t, 4>> vertex_colours(const SphericalChart& c
                                                          const Numbering& numbering) {
   const std::optional<Attributes> own = light_and_alpha(mesh);
   if (!own) return {};
-  const Attributes refined = carry_vertex_attribute(chart, mesh.mesh.triangles, *own);
+  const Attributes refined =
+      carry_vertex_attribute(chart, mesh.mesh.triangles, *own, numbering.threads);
   std::vector<std::array<std::uint16_t, 4>> colours;
   colours.reserve(numbering.wedges.size());
   for (const int wedge : numbering.wedges) {
@@ -181,8 +186,10 @@ MorphTarget morph_target(const NamedShape& to, const Surface& from, const Number
 Surface chart_surface(const SphericalChart& chart, const Shape& shape,
                       const std::vector<NamedShape>& targets, const MeshFile& mesh,
                       const SurfaceOptions& options, double theta_offset) {
-  Numbering numbering =
-      options.source_texcoords ? number_with_texcoords(chart, mesh) : number_wedges(chart);
+  Numbering numbering = options.source_texcoords
+                            ? number_with_texcoords(chart, mesh, options.threads)
+                            : number_wedges(chart);
+  numbering.threads = options.threads;
   const bool mirrored = options.uv.mirrored;
   Surface surface;
   require_float32(shape.positions);

@@ -15,6 +15,7 @@ struct SurfaceOptions {
   bool theta_phi = false;         // _THETA_PHI, radians; θ in [0, 2π), ϕ in [0, π]
   bool position_lo = false;       // _POSITION_LO: what float32 leaves of the positions
   bool source_texcoords = false;  // TEXCOORD_1: the mesh's own
+  int threads = 0;                // 0: all cores
 };
 
 /// A shape that the mesh can be morphed into.

@@ -42,7 +42,7 @@ std::vector<NamedShape> map_shapes(const ExportChart& chart, const Shape& base,
                                    const GeometryOptions& options) {
   std::vector<NamedShape> targets;
   if (options.morph == Morph::None) return targets;
-  const double area = area_of(base, chart.chart);
+  const double area = area_of(base, chart.chart, options.threads);
   const Vector3 middle = middle_of(base);
   const double radius = std::sqrt(area / (4 * std::numbers::pi)), height = std::sqrt(area / 2);
   targets.push_back(
@@ -93,6 +93,7 @@ ExportGeometry export_geometry(const ExportChart& chart, const MeshFile& source,
   const Shape shape = shape_of(chart, source, options);
   SurfaceOptions buffers = options.buffers;
   buffers.uv.mirrored = chart.mirrored;
+  buffers.threads = options.threads;
   ExportGeometry geometry;
   geometry.surface = chart_surface(chart.chart, shape, targets_of(chart, shape, source, options),
                                    source, buffers, chart.theta_offset);

@@ -90,8 +90,8 @@ Vector3 middle_of(const Shape& shape) {
          0.5 * shape.positions.colwise().maxCoeff().transpose();
 }
 
-double area_of(const Shape& shape, const SphericalChart& chart) {
-  return parallel_sum(chart.wedges.rows(), 0, [&](std::int64_t first, std::int64_t last) {
+double area_of(const Shape& shape, const SphericalChart& chart, int threads) {
+  return parallel_sum(chart.wedges.rows(), threads, [&](std::int64_t first, std::int64_t last) {
     double area = 0;
     for (auto f = static_cast<Face>(first); f < static_cast<Face>(last); ++f) {
       const Vector3 a = shape.positions.row(chart.wedges(f, 0));

@@ -32,6 +32,6 @@ Shape placed(Shape shape, double scale, const Vector3& middle);
 
 /// The middle of the bounding box, and the area of the chart's triangles in space.
 Vector3 middle_of(const Shape& shape);
-double area_of(const Shape& shape, const SphericalChart& chart);
+double area_of(const Shape& shape, const SphericalChart& chart, int threads = 0);
 
 }  // namespace sphparam

@@ -179,10 +179,10 @@ bool VerifiedMap::holds() const { return certificate.bijective() && !(angles && 
 Certificate certify_either_way(TriangleMesh& mesh, SphereMap& map, int threads) {
   const double greatest = map.points.rows() > 0 ? measure_radius(map.points).greatest : 0;
   shorten(map.points);
-  Certificate certificate = certify(Topology(mesh), map, threads);
+  Certificate certificate = certify(Topology(mesh, threads), map, threads);
   if (certificate.reversed) {
     mesh.triangles.col(1).swap(mesh.triangles.col(2));
-    certificate = certify(Topology(mesh), map, threads);
+    certificate = certify(Topology(mesh, threads), map, threads);
     certificate.reversed = true;
   }
   if (greatest > largest_ray) certificate.max_length_error = greatest - 1;  // as they were

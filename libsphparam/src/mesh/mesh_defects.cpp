@@ -485,9 +485,9 @@ MeshInspection inspect_mesh(const TriangleMesh& mesh) {
 MeshError::MeshError(std::vector<MeshDefect> defects)
     : std::runtime_error(joined_messages(defects)), defects_(std::move(defects)) {}
 
-Topology require_sphere(const TriangleMesh& mesh) {
+Topology require_sphere(const TriangleMesh& mesh, int threads) {
   if (mesh.face_count() < 4 || !mesh.positions.allFinite()) refuse(mesh);
-  Topology topology(mesh);
+  Topology topology(mesh, threads);
   require_sphere(mesh, topology);
   return topology;
 }

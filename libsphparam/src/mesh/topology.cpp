@@ -100,9 +100,10 @@ Topology::Topology(const Triangles& triangles, int vertex_count, int threads) {
   }
 }
 
-std::optional<Topology> Topology::try_build(const Triangles& triangles, int vertex_count) {
+std::optional<Topology> Topology::try_build(const Triangles& triangles, int vertex_count,
+                                            int threads) {
   Topology topology;
-  if (!topology.build(triangles, vertex_count, 0)) return std::nullopt;
+  if (!topology.build(triangles, vertex_count, threads)) return std::nullopt;
   return topology;
 }
 

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "elementary.h"
-#include "sphparam/parallel.h"
 
 namespace sphparam {
 namespace {
@@ -21,19 +20,16 @@ double harmless_scale(const TriangleMesh& mesh) {
   return size < least ? std::ldexp(1.0, std::min(1023, -size)) : 1;
 }
 
-/// Sums at the vertices to unit vectors.
+/// Sums at the vertices to unit vectors. (By one thread: the sums before it take as long.)
 void normalize(Points& normals) {
-  constexpr std::int64_t chunk_size = 8192;
-  parallel_for(normals.rows(), chunk_size, 0, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t v = first; v < last; ++v) {
-      const double length = normals.row(v).stableNorm();
-      if (length > 0) {
-        normals.row(v) /= length;
-      } else {
-        normals.row(v) = Vector3::UnitZ();
-      }
+  for (Vertex v = 0; v < normals.rows(); ++v) {
+    const double length = normals.row(v).stableNorm();
+    if (length > 0) {
+      normals.row(v) /= length;
+    } else {
+      normals.row(v) = Vector3::UnitZ();
     }
-  });
+  }
 }
 
 /// Unit sums of the faces' normals, as long as twice the area, times `weight_of`(that normal, the

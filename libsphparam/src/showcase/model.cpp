@@ -41,10 +41,10 @@ std::string showcase_model(const std::string& name, const MeshFile& file,
                            int threads) {
   const Shape mesh = mesh_shape(chart, at_drawing_size(file.mesh), normals, up, threads);
   const Vector3 middle = middle_of(mesh);
-  const double radius = std::sqrt(area_of(mesh, chart) / (4 * std::numbers::pi));
+  const double radius = std::sqrt(area_of(mesh, chart, threads) / (4 * std::numbers::pi));
   const Shape sphere =
       placed(turned_like(mesh, middle, sphere_shape(chart, {0, -1, 0}, threads)), radius, middle);
-  Surface surface = chart_surface(chart, mesh, {{"sphere", sphere}}, file, {});
+  Surface surface = chart_surface(chart, mesh, {{"sphere", sphere}}, file, {.threads = threads});
   leave_out(surface, fillers_of_chart(chart, fillers_of(file)));
   Asset asset{
       .name = name, .levels = {std::move(surface)}, .images = {}, .materials = {}, .extras = {}};

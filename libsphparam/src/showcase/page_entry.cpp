@@ -49,7 +49,7 @@ PageEntry make_page_entry(Entry entry, Provenance provenance, const MeshFile& fi
   PageEntry page_entry{std::move(entry), std::move(provenance), std::nullopt};
   if (!page_entry.entry.certificate.bijective()) return page_entry;
   // What comes from elsewhere may have rays of other lengths; made unit they are other rays.
-  const Topology topology(file.mesh);
+  const Topology topology(file.mesh, threads);
   if (!certify(topology, page_entry.entry.map, threads).bijective()) return page_entry;
   const FillerMarks fillers = fillers_of(file);
   if (!fillers.empty()) {

@@ -229,7 +229,7 @@ Wrap wrap_soup(const TriangleMesh& soup, const WrapOptions& options) {
   const Lattice lattice = lattice_about(box, options, wrap.voxel, wrap.distance);
   wrap.lattice = lattice.points;
   wrap.mesh = surface_about(soup, lattice, options, wrap);
-  require_sphere(wrap.mesh);
+  require_sphere(wrap.mesh, options.threads);
   wrap.lattice_faces = wrap.mesh.face_count();
   if (options.faces > 0)
     wrap.mesh = simplified(std::move(wrap.mesh), options.faces, options.progress);

@@ -59,8 +59,9 @@ struct MeshInspection {
   bool is_sphere() const;
 };
 
-/// Lists all defects of a mesh, not only the first. Never throws on bad meshes.
-/// Cost: O(#V + #F) plus a sort of the vertices by position.
+/// Lists all defects of a mesh, not only the first. Never throws on bad meshes, but
+/// std::length_error on one of more than INT_MAX/3 faces or INT_MAX vertices, which have no
+/// numbers. Cost: O(#V + #F) plus a sort of the vertices by position.
 MeshInspection inspect_mesh(const TriangleMesh& mesh);
 
 /// A mesh that cannot be used, with the reasons.
@@ -75,9 +76,10 @@ class MeshError : public std::runtime_error {
 
 /// The gate in front of all arithmetic: the topology of a mesh that can be mapped to the sphere.
 /// Throws: MeshError with every defect that stands in the way, unless the mesh is a closed genus-0
-///         manifold with finite positions and no unused vertices.
-/// Cost: that of `Topology`; the full inspection runs only for meshes that fail.
-Topology require_sphere(const TriangleMesh& mesh);
+///         manifold with finite positions and no unused vertices; length_error as `Topology`.
+/// Cost: that of `Topology`; the full inspection runs only for meshes that fail. `threads`, 0: all
+/// cores.
+Topology require_sphere(const TriangleMesh& mesh, int threads = 0);
 /// The same for a mesh whose topology is there already. Requires: no unused vertices.
 void require_sphere(const TriangleMesh& mesh, const Topology& topology);
 

@@ -23,7 +23,8 @@ class Topology {
   Topology(const Triangles& triangles, int vertex_count, int threads = 0);
   /// The same; nothing instead of an exception, and unused vertices are allowed (they have no
   /// outgoing half-edge, −1).
-  static std::optional<Topology> try_build(const Triangles& triangles, int vertex_count);
+  static std::optional<Topology> try_build(const Triangles& triangles, int vertex_count,
+                                           int threads = 0);
 
   /// Is this the connectivity of these triangles, corner by corner? Cost: one comparison of bytes.
   bool is_of(const Triangles& triangles) const;
