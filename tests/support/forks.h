@@ -1,0 +1,45 @@
+#pragma once
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <iterator>
+#include <thread>
+
+/// Work in a process of its own, which has no threads yet.
+namespace sphparam::tests {
+
+constexpr auto patience = std::chrono::seconds(60);
+
+/// What waitpid says of a fork that does this and then exits as its answer is, 0 for true; of one
+/// that does not end, that it was killed.
+template <class Work>
+int status_of_fork(const Work& work) {
+  std::cout.flush();
+  const pid_t child = ::fork();
+  if (child == 0) std::exit(work() ? 0 : 1);
+  const auto end = std::chrono::steady_clock::now() + patience;
+  for (;;) {
+    int status = 0;
+    if (::waitpid(child, &status, WNOHANG) != 0) return status;
+    if (std::chrono::steady_clock::now() > end) ::kill(child, SIGKILL);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+}
+
+/// Whether work that it does leaves a process with one thread.
+template <class Work>
+bool stays_alone(const Work& work) {
+  return status_of_fork([&] {
+           work();
+           const std::filesystem::directory_iterator tasks("/proc/self/task");
+           return std::distance(begin(tasks), end(tasks)) == 1;
+         }) == 0;
+}
+
+}  // namespace sphparam::tests
