@@ -60,11 +60,23 @@ void compare_positions(const MeshFile& written, const MeshFile& read,
                        ": coordinates there have 32 bits");
 }
 
+/// Labels that were read as measures: the format has no whole numbers so large.
+std::vector<std::string> no_labels_now(const std::vector<Property>& written,
+                                       const std::vector<Property>& read) {
+  std::vector<std::string> names;
+  for (const Property& property : written)
+    for (const Property& now : read)
+      if (property.type == ScalarType::Int64 && now.name == property.name && is_floating(now.type))
+        names.push_back(property.name);
+  return names;
+}
+
 /// The name of a face's material; empty for none.
-std::string material_of(const MeshFile& file, const Property& materials, std::size_t face) {
+std::string_view material_of(const MeshFile& file, const Property& materials, std::size_t face) {
   const double id = materials.values[face];
   const bool is_one = id >= 0 && id < static_cast<double>(file.materials.size());
-  return is_one ? file.materials[static_cast<std::size_t>(id)] : "";
+  if (!is_one) return {};
+  return file.materials[static_cast<std::size_t>(id)];
 }
 
 /// By their names: formats number them anew.
@@ -107,6 +119,13 @@ std::vector<std::string> losses_of_writing(const MeshFile& written, const MeshFi
   if (have_same_materials(written, read)) std::erase(of_faces, "material");
   tell(of_faces, "faces");
   tell(renamed, "properties whose numbers are kept without their names");
+  for (const auto& [before, after] :
+       {std::pair(&written.vertex_properties, &read.vertex_properties),
+        {&written.face_properties, &read.face_properties}})
+    if (const std::vector<std::string> names = no_labels_now(*before, *after); !names.empty())
+      add_loss(losses, "that " + enumerated(names) +
+                           " are labels: whole numbers beyond 32 bits are doubles there, which are "
+                           "averaged (.vtp and .vtk have room)");
   const auto has_any = [&](const MeshFile& file, const char* name) {
     return file.find_vertex_property(name) != nullptr;
   };

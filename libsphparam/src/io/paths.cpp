@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "lower_case.h"
+
 namespace sphparam {
 
 namespace {
@@ -16,11 +18,7 @@ std::string file_name(const std::string& path) {
 }  // namespace
 
 std::string extension_of(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  for (char& c : extension) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return extension;
+  return in_lower_case(std::filesystem::path(path).extension().string());
 }
 
 bool is_packed_name(const std::string& path) { return extension_of(path) == ".gz"; }

@@ -1,12 +1,12 @@
 #include "render/value_paint.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <vector>
 
 #include "io/formats/gifti/gifti_labels.h"
+#include "lower_case.h"
 #include "sphparam/io/vertex_data.h"
 
 namespace sphparam {
@@ -80,7 +80,7 @@ ValuePaint value_paint(const MeshFile& file, const std::string& property,
   VertexPaint paint;
   for (const double value : shown.values)
     paint.colours.push_back(std::isfinite(value) ? heat_colour(scale, value) : unknown);
-  for (char& c : scale.title) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  scale.title = in_lower_case(scale.title);
   return {std::move(paint), std::move(scale)};
 }
 

@@ -2,23 +2,17 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <optional>
 #include <string_view>
 #include <utility>
 
+#include "lower_case.h"
 #include "number_text.h"
 
 namespace sphparam {
 namespace {
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return result;
-}
 
 /// Programs that print WKT begin with an empty line.
 std::string trimmed(const std::string& text) {
@@ -129,7 +123,7 @@ std::string advice_for(std::string_view wkt) {
   const IauBody* const body = iau_body_of(wkt);
   if (!body) return "a geographic one on a sphere is needed, or a radius";
   return "a geographic one on a sphere is needed, as IAU_2015:" + std::to_string(body->code) +
-         ", which is what the name " + lower(body->name) + " stands for";
+         ", which is what the name " + in_lower_case(body->name) + " stands for";
 }
 
 /// Rows of maps are planetocentric; GEODCRS with spherical coordinates is so on ellipsoids too.
@@ -157,7 +151,7 @@ Body of_wkt(const std::string& text, double unit) {
   require_length(major, "the WKT's ellipsoid");
   const double minor = inverse == 0 ? major : major * (1 - 1 / inverse);
   require_length(minor, "the WKT's ellipsoid");
-  const std::string axes = lower(text);
+  const std::string axes = in_lower_case(text);
   Body body = {.name = text.substr(open + 1, close - open - 1),
                .semi_axes = Vector3(major, major, minor),
                .wkt = text,
@@ -178,17 +172,17 @@ Body body_of(const std::string& spaced_text, double unit) {
   if (const auto radii = numbers_of(text)) return with_radii(*radii, text, unit);
   std::vector<std::string> known;
   for (const IauBody& body : iau_bodies()) {
-    if (lower(body.name) == lower(text)) {
+    if (in_lower_case(body.name) == in_lower_case(text)) {
       return {.name = body.name,
               .semi_axes = Vector3::Constant(body.radius),
               .iau_code = body.code,
               .unit = unit};
     }
-    known.push_back(lower(body.name));
+    known.push_back(in_lower_case(body.name));
   }
   throw BodyError("there is no body " + text +
                       " among those of the IAU; a radius, three semi-axes, or WKT say it too",
-                  lower(text), std::move(known));
+                  in_lower_case(text), std::move(known));
 }
 
 }  // namespace sphparam

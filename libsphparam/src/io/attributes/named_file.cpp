@@ -5,6 +5,7 @@
 #include <system_error>
 #include <vector>
 
+#include "lower_case.h"
 #include "number_text.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/read_options.h"
@@ -21,13 +22,6 @@ fs::path path_below(std::string text) {
   const bool elsewhere = path.is_absolute() || text.find(':') < text.find('/') ||
                          std::find(path.begin(), path.end(), "..") != path.end();
   return elsewhere ? path.filename() : path;
-}
-
-/// Of ASCII letters: those are what Windows' programs change.
-std::string in_lower_case(std::string text) {
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
 }
 
 bool is_there(const fs::path& path) {
@@ -49,6 +43,7 @@ std::vector<std::string> names_in(const fs::path& folder,
   return names;
 }
 
+/// Of ASCII letters: those are what Windows' programs change.
 std::vector<std::string> names_in_other_case(const fs::path& folder, const fs::path& part) {
   const std::string wanted = in_lower_case(part.string());
   return names_in(folder,

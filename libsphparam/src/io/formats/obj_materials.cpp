@@ -11,6 +11,7 @@
 #include "io/attributes/named_file.h"
 #include "io/files/text_scanner.h"
 #include "io/formats/gltf/gltf_files.h"
+#include "lower_case.h"
 #include "number_text.h"
 
 // Libraries are text from strangers, and written by hand more often than the rest: a line that
@@ -41,14 +42,6 @@ std::optional<double> number(std::string_view word) {
 int words_after(std::string_view option) {
   if (option == "-o" || option == "-s" || option == "-t") return 3;
   return option == "-mm" ? 2 : 1;
-}
-
-/// As keywords are meant, whatever their case.
-std::string in_lower_case(std::string_view word) {
-  std::string text(word);
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
 }
 
 /// Files that were taken though their names differ in case, in words.

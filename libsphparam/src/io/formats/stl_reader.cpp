@@ -10,6 +10,7 @@
 #include "io/files/non_finite_advice.h"
 #include "io/files/text_scanner.h"
 #include "io/polygons/distinct_rows.h"
+#include "lower_case.h"
 
 // An STL file is a soup: every facet has three corners of its own. Corners are numbered by their
 // coordinates as they come, so the soup is never stored.
@@ -100,10 +101,7 @@ class AsciiReader {
   /// The next word in lower case, from a following line if need be; empty at the end of the text.
   std::string next_word() {
     if (scanner_.at_line_end() && !scanner_.next_filled_line()) return {};
-    std::string word(scanner_.word());
-    std::transform(word.begin(), word.end(), word.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return word;
+    return in_lower_case(scanner_.word());
   }
 
   void require(const std::string& found, const char* keyword) const {
@@ -252,9 +250,7 @@ bool looks_like_ascii_stl(std::string_view bytes) {
   if (bytes.size() < solid.size()) return false;
   const bool word =
       bytes.size() == solid.size() || std::isspace(static_cast<unsigned char>(bytes[solid.size()]));
-  return word && std::equal(solid.begin(), solid.end(), bytes.begin(), [](char a, char b) {
-           return a == std::tolower(static_cast<unsigned char>(b));
-         });
+  return word && in_lower_case(bytes.substr(0, solid.size())) == solid;
 }
 
 bool looks_like_stl(std::string_view bytes) {
