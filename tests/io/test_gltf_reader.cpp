@@ -1364,6 +1364,28 @@ TEST_CASE("gltf_reader: who made an asset stays with it, other metadata is told 
   CHECK(other.comments == std::vector<std::string>{"scanned", file.comments[0], file.comments[1]});
 }
 
+TEST_CASE("gltf_reader: extras of the asset that are not carried are told, our own are none") {
+  const auto losses_with = [](const std::string& extras) {
+    Gltf gltf = tetrahedron_gltf();
+    gltf.asset = R"({"version":"2.0","extras":)" + extras + "}";
+    return sphparam::losses_among(read(gltf.bytes()).notes);
+  };
+  const std::string long_text = '"' + std::string(1 << 16, 'x') + '"';
+  const std::vector<std::string> lost = {
+      "not carried: extras of the asset: only an object of at most 64 KiB is carried"};
+  CHECK(losses_with(R"({"author":)" + long_text + "}") == lost);
+  CHECK(losses_with("[1]") == lost);
+  for (const char* whole : {"{}", "null", R"({"sphparam":{"up":"x"}})", R"({"author":"Me"})"})
+    CHECK(losses_with(whole).empty());
+  // Ours may be as long as they like: they are not what is carried.
+  Gltf gltf = tetrahedron_gltf();
+  gltf.asset =
+      R"({"version":"2.0","extras":{"author":"Me","sphparam":{"comments":)" + long_text + "}}}";
+  const sphparam::MeshFile file = read(gltf.bytes());
+  CHECK(sphparam::losses_among(file.notes).empty());
+  CHECK(sphparam::noted_authorship(file).extras == R"({"author":"Me"})");
+}
+
 TEST_CASE("authorship: extras are an object that is neither long nor deep, else none") {
   using sphparam::plain_extras;
   CHECK(plain_extras(R"({"b": 1, "a": "x"})") == R"({"b":1,"a":"x"})");

@@ -189,7 +189,7 @@ TEST_CASE(
             "names are",
             "not carried: the names of 2 objects, 1 group and 1 smoothing group"});
   CHECK(read("mtllib a.mtl\no Fox\ns off\ng default\n" + three_vertices + "f 1 2 3\n", "a.obj")
-            .notes == std::vector<std::string>{"not carried: the names of 1 object"});
+            .notes == std::vector<std::string>{"its object is called 'Fox'"});
 }
 
 TEST_CASE(
@@ -211,9 +211,9 @@ TEST_CASE("obj_reader: other statements are ignored, lines and points told") {
       read("# made by\n#\n" + three_vertices + "o a\ng b c\ns off\nf 1 2 3\nl 1 2\nl 2 3\np 1\n",
            "a.obj");
   CHECK(file.comments == std::vector<std::string>{"made by", ""});
-  CHECK(file.notes == std::vector<std::string>{"not carried: the names of 1 object and 1 group",
-                                               "not carried: 2 'l' statements",
-                                               "not carried: 1 'p' statement"});
+  CHECK(file.notes ==
+        std::vector<std::string>{"its object is called 'a'", "not carried: the names of 1 group",
+                                 "not carried: 2 'l' statements", "not carried: 1 'p' statement"});
 }
 
 TEST_CASE("obj_reader: what breaks the rules is refused at its line") {

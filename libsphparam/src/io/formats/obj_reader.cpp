@@ -456,7 +456,7 @@ class ObjReader {
     return all;
   }
 
-  /// What stands for none says nothing.
+  /// What stands for none says nothing. That of a single object is all of the file's: no loss.
   void note_groups() {
     static constexpr std::pair<const char*, const char*> kinds[] = {
         {"o", "object"}, {"g", "group"}, {"s", "smoothing group"}};
@@ -466,7 +466,10 @@ class ObjReader {
     for (const auto& [keyword, what] : kinds) {
       std::set<std::string>& names = names_[keyword].distinct;
       std::erase_if(names, is_none);
-      if (!names.empty()) words.push_back(counted(std::ssize(names), what));
+      const bool is_whole = names.size() == 1 && std::string_view(keyword) == "o";
+      if (is_whole)
+        file_.notes.push_back("its object is called " + sphparam::quoted(*names.begin()));
+      if (!names.empty() && !is_whole) words.push_back(counted(std::ssize(names), what));
     }
     if (!words.empty()) add_loss(file_.notes, "the names of " + enumerated(words));
   }

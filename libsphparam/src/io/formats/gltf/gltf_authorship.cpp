@@ -37,6 +37,13 @@ bool says_something(const tinygltf::Value& extras) {
   });
 }
 
+/// Those of `asset` but for ours.
+Json others_extras(const tinygltf::Model& model) {
+  Json extras = json_of(model.asset.extras);
+  if (extras.is_object()) extras.erase("sphparam");
+  return extras;
+}
+
 template <class Things>
 long with_extras(const Things& things) {
   return std::ranges::count_if(things, [](const auto& one) { return says_something(one.extras); });
@@ -45,7 +52,7 @@ long with_extras(const Things& things) {
 }  // namespace
 
 Authorship authorship_of(const tinygltf::Model& model) {
-  const Json extras = json_of(model.asset.extras);
+  const Json extras = others_extras(model);
   return {one_line(model.asset.copyright),
           extras.is_object()
               ? plain_extras(extras.dump(-1, ' ', false, Json::error_handler_t::replace))
@@ -54,6 +61,8 @@ Authorship authorship_of(const tinygltf::Model& model) {
 
 std::string other_metadata(const tinygltf::Model& model) {
   std::vector<std::string> owners, words;
+  if (!others_extras(model).empty() && authorship_of(model).extras.empty())
+    words.emplace_back("extras of the asset: only an object of at most 64 KiB is carried");
   if (says_something(model.extras)) owners.emplace_back("the file");
   const auto add = [&](long count, const char* one, const char* many) {
     if (count > 0) owners.push_back(counted(count, one, many));
