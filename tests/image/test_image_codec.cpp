@@ -173,7 +173,7 @@ TEST_CASE("image codec: a JPEG that ends early or is damaged is refused") {
     CHECK_THROWS_WITH(decode_image({whole.begin(), whole.begin() + size}, "cut.jpg"),
                       Contains("cut.jpg: is cut off"));
   }
-  CHECK_THROWS_WITH(decode_image({whole.begin(), whole.end() - 2}, "cut.jpg"),
+  CHECK_THROWS_WITH(decode_image({whole.begin(), whole.end() - 3}, "cut.jpg"),
                     Contains("cut.jpg: is cut off"));
   std::vector<char> with_thumbnail = whole;  // a whole JPEG in an APP1 segment, behind the start
   const std::string head = {'\xff', '\xe1', static_cast<char>((whole.size() + 2) >> 8),
@@ -181,7 +181,7 @@ TEST_CASE("image codec: a JPEG that ends early or is damaged is refused") {
   with_thumbnail.insert(with_thumbnail.begin() + 2, whole.begin(), whole.end());
   with_thumbnail.insert(with_thumbnail.begin() + 2, head.begin(), head.end());
   CHECK(decode_image(with_thumbnail, "t.jpg").pixels == decode_image(whole, "w.jpg").pixels);
-  CHECK_THROWS_WITH(decode_image({with_thumbnail.begin(), with_thumbnail.end() - 2}, "cut.jpg"),
+  CHECK_THROWS_WITH(decode_image({with_thumbnail.begin(), with_thumbnail.end() - 3}, "cut.jpg"),
                     Contains("cut.jpg: is cut off"));
   std::vector<char> damaged = whole;
   std::fill_n(damaged.end() - static_cast<std::ptrdiff_t>(whole.size() / 3), 64, '\xff');
@@ -194,6 +194,42 @@ TEST_CASE("image codec: a JPEG that ends early or is damaged is refused") {
   CHECK(decode_image(stray, "stray.jpg").pixels == decode_image(whole, "w.jpg").pixels);
   CHECK_THROWS_WITH(decode_image({stray.begin(), stray.end() - 2}, "cut.jpg"),
                     Contains("cut.jpg: is cut off"));
+}
+
+TEST_CASE("image codec: a JPEG that lacks nothing but its end is read, and says so") {
+  const ImageTexts::value_type lacks_end{lacks_end_text, "1"};
+  for (const int channels : {1, 3}) {
+    const std::vector<char> whole =
+        encode_image(ramp(50, 70, channels, 256), ImageFormat::Jpeg, {});
+    ImageTexts texts;
+    const Image image = decode_image(whole, "w.jpg", {}, &texts);
+    CHECK(std::ranges::count(texts, lacks_end) == 0);
+    for (const std::ptrdiff_t missing : {1, 2}) {
+      texts.clear();
+      const Image read = decode_image({whole.begin(), whole.end() - missing}, "e.jpg", {}, &texts);
+      CHECK(read.pixels == image.pixels);
+      CHECK(std::ranges::count(texts, lacks_end) == 1);
+    }
+    for (std::ptrdiff_t missing = 3; missing < 200; ++missing)
+      CHECK_THROWS_WITH(decode_image({whole.begin(), whole.end() - missing}, "cut.jpg"),
+                        Contains("cut.jpg: is cut off"));
+  }
+}
+
+TEST_CASE("image codec: a progressive JPEG without an end may lack scans, and is refused") {
+  // 8 × 8 greys, and of their scans the first alone: the mean.
+  using namespace std::string_literals;
+  const std::string tables = "\xff\xd8\xff\xdb\0\x43\0"s + std::string(64, '\x01'),
+                    frame = "\xff\xc2\0\x0b\x08\0\x08\0\x08\x01\x01\x11\0"s,
+                    codes = "\xff\xc4\0\x14\0\x01"s + std::string(16, '\0'),
+                    scan = "\xff\xda\0\x08\x01\x01\0\0\0\0\x7f\xff\xd9"s,
+                    file = tables + frame + codes + scan;
+  const std::vector<char> whole(file.begin(), file.end());
+  const Image image = decode_image(whole, "p.jpg");
+  CHECK(image.width == 8);
+  CHECK(image.pixels == std::vector<float>(64, 128 / 255.0F));
+  CHECK_THROWS_WITH(decode_image({whole.begin(), whole.end() - 2}, "p.jpg"),
+                    Contains("p.jpg: is cut off"));
 }
 
 TEST_CASE("image codec: an EXR whose pixels have depths is refused") {

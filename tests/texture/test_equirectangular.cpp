@@ -119,7 +119,11 @@ TEST_CASE("equirectangular: numbers that are measured are no colours, light may 
     }
   };
   CHECK(refused(0).empty());
+  CHECK(read_equirectangular(path).warning().empty());
   CHECK(refused(16).empty());
+  CHECK(read_equirectangular(path).warning() ==
+        display_name(path) +
+            ": 50 % of its pixels have values outside of 0 to 1, which are cut to that");
   CHECK_THAT(refused(17), Catch::Contains("no colours: 53.1 % of its pixels"));
   // Of other formats than EXR one in a hundred: TIFF has floats too.
   const std::string tiff = path.substr(0, path.size() - 3) + "tif";
@@ -129,6 +133,29 @@ TEST_CASE("equirectangular: numbers that are measured are no colours, light may 
   CHECK_THROWS_AS(read_equirectangular(tiff), ImageError);
   std::filesystem::remove(path);
   std::filesystem::remove(tiff);
+}
+
+TEST_CASE("equirectangular: heights that were baked in floats are told, whatever their range") {
+  const std::string path = std::filesystem::temp_directory_path() /
+                           ("sphparam_baked_" + std::to_string(getpid()) + ".exr");
+  Image image(8, 4, 1);
+  std::fill(image.pixels.begin(), image.pixels.end(), 0.5F);
+  const auto warning_of = [&](ImageTexts texts) {
+    write_image(path, image, {.sample_type = SampleType::Float, .metadata = std::move(texts)});
+    return read_equirectangular(path).warning();
+  };
+  const std::pair<std::string, std::string> height{"sphparam:map", "height"},
+      about{"sphparam:about", "distance from the origin"}, least{"sphparam:min", "0"};
+  CHECK(warning_of({height, about}) ==
+        display_name(path) +
+            ": its pixels are what was measured (distance from the origin), and "
+            "taken as colours; a PNG of it is scaled from dark to bright");
+  CHECK(warning_of({{"sphparam:map", "curvature:mean"}, about}).size() > 50);
+  CHECK(warning_of({height, about, least}).empty());
+  CHECK(warning_of({{"sphparam:map", "ao"}, about}).empty());
+  CHECK(warning_of({{"sphparam:map", "basecolor"}}).empty());
+  CHECK(warning_of({}).empty());
+  std::filesystem::remove(path);
 }
 
 TEST_CASE("equirectangular: a colour profile that is not sRGB's is told") {

@@ -23,6 +23,8 @@ using ImageTexts = std::vector<std::pair<std::string, std::string>>;
 
 /// Beside the texts of a file: the name of the ICC profile that its colours are in.
 constexpr char other_profile_text[] = "sphparam:other-profile";
+/// Beside them, of a JPEG that ends without its mark though all its pixels are there: "1".
+constexpr char lacks_end_text[] = "sphparam:lacks-end";
 
 struct ImageWriteOptions {
   SampleType sample_type = SampleType::Uint8;  // PNG: Uint8 or Uint16; EXR: Half or Float
@@ -35,7 +37,7 @@ struct ImageWriteOptions {
 /// The decoders are OpenImageIO's, in a module opened on first use: a program that touches no
 /// image never loads them. Those of BMP and TGA, which are not written, are our own.
 /// `texts`, where given, gets the texts of the file's metadata, and the name of its colour profile
-/// as `other_profile_text` where that is not sRGB's.
+/// as `other_profile_text` where that is not sRGB's; `lacks_end_text` where that is so.
 /// Throws: std::bad_alloc; ImageError with the file's name, for what is no PNG, JPEG, WebP, TIFF,
 /// EXR, BMP or TGA file, for broken ones and for what is beyond the limits.
 Image read_image(const std::string& path, const ImageLimits& limits = {},

@@ -95,10 +95,12 @@ struct SphparamImageTable {
 typedef const SphparamImageTable* (*SphparamImageTableFunction)();
 }
 
-constexpr int sphparam_image_table_version = 7;
+constexpr int sphparam_image_table_version = 8;
 /// What `error` is told where memory ran out, and nowhere else.
 constexpr char sphparam_image_no_memory[] = "not enough memory";
 /// The name under which `decode` tells, as a text, what profile colours are in, where it is not
 /// that of sRGB.
 constexpr char sphparam_other_profile[] = "sphparam:other-profile";
+/// The name of a text that tells of a JPEG without an end whose pixels are all there.
+constexpr char sphparam_lacks_end[] = "sphparam:lacks-end";
 constexpr char sphparam_image_table_name[] = "sphparam_image_table";

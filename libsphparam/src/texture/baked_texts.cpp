@@ -29,6 +29,15 @@ std::string_view baked_text(const ImageTexts& texts, std::string_view key) {
   return {};
 }
 
+bool is_measured(const ImageTexts& texts) {
+  static constexpr std::string_view maps[] = {
+      "position",  "height",    "lon",       "lat",  "lonlat", "radius",  "slope",
+      "elevation", "thickness", "curvature", "area", "angle",  "stretch", "scalar"};
+  const std::string_view map = baked_text(texts, "sphparam:map");
+  const bool is_scaled = !baked_text(texts, "sphparam:min").empty();
+  return !is_scaled && std::ranges::count(maps, map.substr(0, map.find(':'))) > 0;
+}
+
 std::optional<Convention> baked_convention_of(const ImageTexts& texts) {
   return convention_named(baked_text(texts, "sphparam:convention"));
 }

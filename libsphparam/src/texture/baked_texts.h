@@ -12,6 +12,10 @@ namespace sphparam {
 /// hold ours in one text, a line each.
 std::string_view baked_text(const ImageTexts& texts, std::string_view key);
 
+/// Whether an image says that it was baked of what is measured, in its own unit (heights in
+/// floats): integers are scaled to what there is.
+bool is_measured(const ImageTexts& texts);
+
 /// The convention that an image says it was baked in; nothing for images of strangers.
 std::optional<Convention> baked_convention_of(const ImageTexts& texts);
 

@@ -71,10 +71,13 @@ double share_beyond_colours(const Image& image) {
   return static_cast<double>(count) / (static_cast<double>(image.width) * image.height);
 }
 
-/// Heights in metres, say, would all be white or black. Light may be brighter than white.
-void require_colours(const std::string& path, const Image& image, bool linear) {
+/// Heights in metres, say, would all be white or black. Light may be brighter than white: in words,
+/// how much of it is; empty: nothing. Throws: ImageError where that is too much.
+std::string words_of_light(const std::string& path, const Image& image, bool linear) {
   const double most = linear ? 0.5 : 0.01, share = share_beyond_colours(image);
-  if (share <= most) return;
+  if (share == 0) return "";
+  if (share <= most)
+    return percent(share) + " of its pixels have values outside of 0 to 1, which are cut to that";
   throw ImageError(display_name(path) + ": no colours: " + percent(share) +
                    " of its pixels have values outside of 0 to 1; numbers that are measured are "
                    "scaled to that before they are painted");
@@ -122,9 +125,9 @@ EquirectangularImage read_equirectangular(const std::string& path, Convention co
                                  ", and would be read in " + info_of(convention).name +
                                  ": convention " + name + " reads it as it is");
   }
-  require_colours(path, image, linear);
+  const std::string light = words_of_light(path, image, linear);
   return {std::make_shared<const TexturePyramid>(image, linear, threads), convention,
-          linear ? "" : profile_warning(display_name(path), texts)};
+          file_warning(display_name(path), texts, linear, light)};
 }
 
 }  // namespace sphparam

@@ -8,7 +8,9 @@
 #include "image/image_codec.h"
 #include "io/attributes/material_comments.h"
 #include "io/formats/gltf/gltf_files.h"
+#include "number_text.h"
 #include "sphparam/io/paths.h"
+#include "texture/baked_texts.h"
 #include "texture/specular_glossiness_image.h"
 #include "texture/texture_pyramid.h"
 
@@ -103,7 +105,7 @@ DecodedTexture decode(const MaterialTexture& colour, const std::string& what, Te
   const bool heights = colour.bump != 0 && is_grey(image);
   if (heights) image = normals_of_heights(image, colour);
   return {std::make_shared<const TexturePyramid>(image, linear, threads), heights,
-          linear ? "" : profile_warning(colour.image, texts)};
+          file_warning(colour.image, texts, linear)};
 }
 
 /// As `note_nearest` has it.
@@ -137,11 +139,21 @@ std::string why_unusable(const MaterialTexture& texture) try {
   return why.substr(0, why.find('\n'));
 }
 
-std::string profile_warning(const std::string& image, const ImageTexts& texts) {
-  const auto found = std::ranges::find(texts, other_profile_text, &ImageTexts::value_type::first);
-  if (found == texts.end()) return "";
-  return image + ": its colours are taken as sRGB; its colour profile, " + found->second +
-         ", is not heeded (convert the image to sRGB)";
+std::string file_warning(const std::string& image, const ImageTexts& texts, bool linear,
+                         const std::string& more) {
+  std::vector<std::string> words;
+  const std::string_view profile = baked_text(texts, other_profile_text);
+  if (!linear && !profile.empty())
+    words.push_back("its colours are taken as sRGB; its colour profile, " + std::string(profile) +
+                    ", is not heeded (convert the image to sRGB)");
+  if (!baked_text(texts, lacks_end_text).empty())
+    words.emplace_back("the end of the file is missing, but none of the pixels (save it again)");
+  if (is_measured(texts))
+    words.push_back("its pixels are what was measured (" +
+                    std::string(baked_text(texts, "sphparam:about")) +
+                    "), and taken as colours; a PNG of it is scaled from dark to bright");
+  if (!more.empty()) words.push_back(more);
+  return words.empty() ? "" : image + ": " + joined(words, "; ");
 }
 
 std::vector<std::string> warnings_of(const std::vector<SourceTexture>& textures) {
@@ -163,7 +175,7 @@ SourceTexture read_texture(const std::string& path, TextureWrap wrap, int thread
   return {.image = std::make_shared<const TexturePyramid>(image, linear, threads),
           .wrap_s = wrap,
           .wrap_t = wrap,
-          .warning = linear ? "" : profile_warning(path, texts)};
+          .warning = file_warning(path, texts, linear)};
 }
 
 SourceTexture TextureReader::read(const MaterialTexture& said, const std::string& material) {

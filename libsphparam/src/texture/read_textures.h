@@ -21,8 +21,11 @@ SourceTexture read_texture(const std::string& path, TextureWrap wrap, int thread
 /// Throws: ImageError that names material and image, for one that is missing, broken or unusable.
 std::vector<SourceTexture> read_textures(const MeshFile& file, int threads);
 
-/// Colours are taken as sRGB, whatever profile an image has. Empty: it has none, or that.
-std::string profile_warning(const std::string& image, const ImageTexts& texts);
+/// What of an image's file is not heeded, or missing: colours, which are not `linear`, are taken as
+/// sRGB, whatever profile it has, and numbers that were measured as colours; a JPEG may lack its
+/// end. `more`: what else is to be told of it. Empty: nothing.
+std::string file_warning(const std::string& image, const ImageTexts& texts, bool linear,
+                         const std::string& more = "");
 
 /// What is to be told of them, each line once.
 std::vector<std::string> warnings_of(const std::vector<SourceTexture>& textures);

@@ -41,7 +41,8 @@ class EquirectangularImage {
   int width() const;   // texels
   int height() const;  // half the width, if it is of the whole sphere
   bool has_alpha() const;
-  /// What its file has that is not heeded, a colour profile; empty: nothing.
+  /// What its file has that is not heeded or cut off (a colour profile, values outside of 0 to 1),
+  /// or that is measured and no colour; empty: nothing.
   const std::string& warning() const { return warning_; }
 
  private:

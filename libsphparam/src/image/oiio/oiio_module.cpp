@@ -121,26 +121,50 @@ void tell_texts(const OIIO::ImageSpec& spec, SphparamTextSink text, void* contex
   }
 }
 
-/// Behind the segments of a JPEG's head, of which one may hold a thumbnail, with scan and end.
-size_t first_scan(std::string_view jpeg) {
-  const auto byte = [&](size_t i) { return i < jpeg.size() ? static_cast<uint8_t>(jpeg[i]) : 0U; };
-  size_t at = 2;
-  while ((at = jpeg.find('\xff', at)) != jpeg.npos && byte(at + 1) != 0xda)
-    at += byte(at + 1) == 0xff ? 1 : 2 + 256 * byte(at + 2) + byte(at + 3);
-  return at;
-}
+/// The JPEG that bytes hold.
+class Jpeg {
+ public:
+  explicit Jpeg(std::string_view bytes) : bytes_(bytes) {}
 
-/// Whether no end follows. (In a scan, 0xff is never before 0xd9; what is behind the end, as films
-/// of telephones are, does not matter.)
-bool is_cut_off(std::string_view jpeg) {
-  return jpeg.find("\xff\xd9", first_scan(jpeg)) == jpeg.npos;
-}
+  /// Whether no end follows the first scan. (In a scan, 0xff is never before 0xd9; what is behind
+  /// the end, as films of telephones are, does not matter.)
+  bool lacks_end() const { return bytes_.find(end, segment("\xda")) == bytes_.npos; }
+
+  /// Whether one scan has all there is: where no end follows it, the decoder notices whether its
+  /// data are complete. Of several scans (a progressive JPEG) the last ones may be missing.
+  bool has_one_scan() const {
+    const size_t frame = segment("\xc0\xc1\xda"), scan = segment("\xda");
+    if (frame == bytes_.npos || scan == bytes_.npos || frame == scan) return false;
+    return byte(frame + 9) == byte(scan + 4);  // how many components they have
+  }
+
+  std::string with_end() const { return std::string(bytes_) + end; }
+
+ private:
+  static constexpr char end[] = "\xff\xd9";
+
+  unsigned byte(size_t i) const { return i < bytes_.size() ? static_cast<uint8_t>(bytes_[i]) : 0; }
+
+  /// Where the first segment of one of these kinds begins, of the head or behind it. (One of the
+  /// head may hold a thumbnail, with scan and end.)
+  size_t segment(std::string_view kinds) const {
+    size_t at = 2;
+    while ((at = bytes_.find('\xff', at)) != bytes_.npos &&
+           kinds.find(static_cast<char>(byte(at + 1))) == kinds.npos)
+      at += byte(at + 1) == 0xff ? 1 : 2 + 256 * byte(at + 2) + byte(at + 3);
+    return at;
+  }
+
+  std::string_view bytes_;
+};
 
 /// What libjpeg only warns of, painting grey: data of a JPEG that end early or are damaged. Empty:
-/// nothing. Of several warnings it tells the first.
-std::string damage_of(OIIO::ImageInput& input, std::string_view jpeg) {
+/// nothing. Of several warnings it tells the first: where that was of the head, it says nothing of
+/// the data.
+std::string damage_of(OIIO::ImageInput& input, const Jpeg& jpeg, bool head_was_told) {
   const std::string told = input.has_error() ? input.geterror() : "";
-  if (is_cut_off(jpeg))
+  const bool is_whole = told.empty() && !head_was_told && jpeg.has_one_scan();
+  if (jpeg.lacks_end() && !is_whole)
     return "is cut off, the end of the JPEG is not there: copy or save it again";
   for (const char* const harmless : {"Adobe color transform", "SOS parameters"})
     if (told.find(harmless) != std::string::npos) return "";
@@ -161,16 +185,20 @@ int decode(const char* format, const char* bytes, size_t size, int64_t max_megab
     if (!refused.empty()) return fail(refused);
     return decode_webp(*head, bytes, size, room, room_context, error, error_context);
   }
+  const bool is_jpeg = std::string_view(format) == "jpeg";
+  const Jpeg jpeg({bytes, size});
+  const std::string ended = is_jpeg && jpeg.lacks_end() ? jpeg.with_end() : "";
+  const std::string_view all = ended.empty() ? std::string_view(bytes, size) : ended;
   // From memory only, whatever the decoder would like to open.
-  OIIO::Filesystem::IOMemReader memory(const_cast<char*>(bytes), size);
+  OIIO::Filesystem::IOMemReader memory(const_cast<char*>(all.data()), all.size());
   const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format, false);
   if (!input) return fail(OIIO::geterror());
   OIIO::ImageSpec config, spec;
   config.attribute("oiio:UnassociatedAlpha", 1);
   if (!input->set_ioproxy(&memory)) return fail("this decoder cannot read from memory");
   if (!input->open(std::string("memory.") + format, spec, config)) return fail(input->geterror());
-  const bool is_jpeg = std::string_view(format) == "jpeg";
-  if (is_jpeg) input->geterror();  // of the head, where stray bytes do no harm
+  // Of the head, where stray bytes do no harm.
+  const bool head_was_told = is_jpeg && !input->geterror().empty();
   const std::string refused = refusal(spec, size, max_megabytes, max_channels);
   if (!refused.empty()) return fail(refused);
   const bool is_placed = has_other_window(spec, format);
@@ -190,8 +218,9 @@ int decode(const char* format, const char* bytes, size_t size, int64_t max_megab
     return fail(input->geterror());
   }
   if (is_jpeg) {
-    const std::string damage = damage_of(*input, {bytes, size});
+    const std::string damage = damage_of(*input, jpeg, head_was_told);
     if (!damage.empty()) return fail(damage);
+    if (text && !ended.empty()) text(text_context, sphparam_lacks_end, "1");
   }
   if (is_placed) place(apart, spec, pixels);
   return 0;
