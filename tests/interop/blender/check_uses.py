@@ -1,5 +1,7 @@
 """Baking and remeshing in Blender: the images and meshes are the program's, both routes alike, and stay."""
 
+import ctypes
+import os
 import pathlib
 import sys
 
@@ -252,6 +254,35 @@ def check_control():
     assert np.abs(found[:, 1] - (1 - np.arccos(at_loops[:, 2]) / np.pi)).max() < 1e-5
 
 
+def told_by(operator, **options):
+    """What it reports; without a window Blender prints that."""
+    sys.stdout.flush()
+    kept, told = os.dup(1), work / "told"
+    with open(told, "wb") as out:
+        os.dup2(out.fileno(), 1)
+        try:
+            operator(**options)
+            ctypes.CDLL(None).fflush(None)
+        finally:
+            os.dup2(kept, 1)
+            os.close(kept)
+    return told.read_text()
+
+
+def check_left_materials():
+    """A new mesh has no materials of the source's, which is told."""
+    source = mapped("creature.ply")
+    for count, words in enumerate(("", "; the material stays with ", "; the 2 materials stay with ")):
+        if count > 0:
+            source.data.materials.append(bpy.data.materials.new(f"m{count}"))
+        for operator, options in ((bpy.ops.object.spherical_map_remesh, {"grid": "ICO", "level": 2}),
+                                  (bpy.ops.object.spherical_map_control, {"edges": 4, "levels": 1})):  # fmt: skip
+            make_active(source)
+            told = told_by(operator, **options)
+            assert (words + source.name in told) if words else ("stay" not in told and "Info: " in told), told
+            assert not bpy.context.object.data.materials
+
+
 install()
 obj = load(work / "creature.ply")
 off = check_images(write_mesh(work / "own.obj", obj.data))
@@ -264,6 +295,7 @@ check_attribute()
 check_plain_images()
 check_own_images()
 check_control()
+check_left_materials()
 check_undo()
 check_file()
 said(f"uses: images are the program's but for {100 * off:.2f} % of the texels at most; remesh, any names, save, undo")

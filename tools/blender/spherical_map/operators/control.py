@@ -3,7 +3,7 @@
 import bpy
 
 from ..core import layout, steps
-from ..scene import control, mesh_reading, selection
+from ..scene import control, materials, mesh_reading, selection
 from .running import RunningOperator
 
 
@@ -40,5 +40,5 @@ class SPHERICAL_MAP_OT_control(RunningOperator, bpy.types.Operator):
         said = result.figures
         return (
             f"{made.name}: {6 * self.edges ** 2} quads, RMS {said.base_rms:.4g} from the mesh without displacement, "
-            f"which is from {said.least:.4g} to {said.greatest:.4g}{self._lost}"
+            f"which is from {said.least:.4g} to {said.greatest:.4g}{self._lost}{materials.left_with(source)}"
         )

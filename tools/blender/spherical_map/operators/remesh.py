@@ -3,7 +3,7 @@
 import bpy
 
 from ..core import steps
-from ..scene import mesh_reading, mesh_writing, selection
+from ..scene import materials, mesh_reading, mesh_writing, selection
 from .running import RunningOperator
 
 
@@ -58,4 +58,5 @@ class SPHERICAL_MAP_OT_remesh(RunningOperator, bpy.types.Operator):
         made = mesh_writing.new_object(mapped.surface.name, found, beside, context, result.scalars)
         mesh_writing.apply_chart(made.data, mapped.surface, mapped.chart, True)
         selection.make_active(context, made)
-        return f"{made.name}: {len(found.vertices['x'])} vertices, {len(found.counts)} faces"
+        said = f"{made.name}: {len(found.vertices['x'])} vertices, {len(found.counts)} faces"
+        return said + materials.left_with(beside)

@@ -1,4 +1,4 @@
-"""A material that shows what was baked."""
+"""Materials: one that shows what was baked, and those that stay behind."""
 
 import bpy
 
@@ -20,6 +20,15 @@ def require_editable_material(obj: bpy.types.Object) -> None:
     owner = obj.active_material or obj.data
     if owner.library is not None or (obj.active_material is None and obj.library is not None):
         raise Refusal(f"{owner.name} is linked from another file and can show nothing: Object › Relations › Make Local")
+
+
+def left_with(source: bpy.types.Object) -> str:
+    """What is told of a new mesh, which gets none of the source's materials: their UV maps are not its own. Empty:
+    there are none."""
+    count = len({slot.material.name_full for slot in source.material_slots if slot.material is not None})
+    if count == 0:
+        return ""
+    return f"; {f'the {count} materials stay' if count > 1 else 'the material stays'} with {source.name}"
 
 
 def _material_of(obj: bpy.types.Object) -> bpy.types.Material:
