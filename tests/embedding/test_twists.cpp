@@ -8,6 +8,7 @@
 #include "elementary.h"
 #include "embedding/constructions/progressive.h"
 #include "embedding/energy/map_image.h"
+#include "embedding/twists/layer_slides.h"
 #include "embedding/twists/twists.h"
 #include "sphparam/sphere/certificate.h"
 #include "support/hard_shapes.h"
@@ -59,16 +60,22 @@ Latitudes on_latitudes(int rings, int around, int twisted_from, double twist) {
   return made;
 }
 
+/// Of rings: by how much of a place every other vertex is farther on, and every third lower.
+struct Polygon {
+  double lean = 0.1, bump = 0.4;
+};
+
 /// A tube on the sphere as its rings lie on polygons that cannot be turned, each so many vertices
-/// on from the one before.
-SphereMap on_polygons(int rings, int around, int twist) {
+/// on from its place.
+template <class TwistOf>
+SphereMap on_polygons(int rings, int around, const Polygon& polygon, const TwistOf& twist_of) {
   SphereMap map{Points(rings * around + 2, 3)};
   map.points.row(0) << 0, 0, 1;
   for (int ring = 0; ring < rings; ++ring) {
     for (int i = 0; i < around; ++i) {
-      const int place = (i + (twist + around) * ring) % around;
-      const double theta = 2 * std::numbers::pi / around * (place + 0.1 * (place % 2));
-      const double phi = std::numbers::pi / (rings + 1) * (ring + 1 + 0.4 * (place % 3));
+      const int place = (i + around * ring + twist_of(ring)) % around;
+      const double theta = 2 * std::numbers::pi / around * (place + polygon.lean * (place % 2));
+      const double phi = std::numbers::pi / (rings + 1) * (ring + 1 + polygon.bump * (place % 3));
       const double sine = elementary::sin(phi);
       map.points.row(1 + ring * around + i) << sine * elementary::cos(theta),
           sine * elementary::sin(theta), elementary::cos(phi);
@@ -76,6 +83,11 @@ SphereMap on_polygons(int rings, int around, int twist) {
   }
   map.points.row(map.points.rows() - 1) << 0, 0, -1;
   return map;
+}
+
+/// The same, each ring so many vertices on from the one before.
+SphereMap on_polygons(int rings, int around, int twist) {
+  return on_polygons(rings, around, {}, [&](int ring) { return twist * ring; });
 }
 
 }  // namespace
@@ -114,6 +126,30 @@ TEST_CASE("twists: a limb that is turned by a vertex between any two rings slide
     CHECK(map_of(image).points == plain.points);
     CHECK(untwist(topology, measure_source(mesh), {}, image) == 0);
   }
+}
+
+TEST_CASE("twists: layers that would fit those beside them, but not their places, are turned") {
+  // A piece of a tube is turned by a vertex. Its places are wide and narrow in turn, as its edges
+  // are: where it slides by one they are not.
+  constexpr int around = 12, first = 3, last = 9, rings = 18;
+  const auto is_in_piece = [](int ring) { return ring >= first && ring < last; };
+  const SphereMap map = on_polygons(rings, around, {.lean = 0.5, .bump = 0},
+                                    [&](int ring) { return is_in_piece(ring) ? -1 : 0; });
+  TriangleMesh mesh = tube(rings, around);
+  mesh.positions = map.points;
+  const Eigen::AngleAxisd back(2 * std::numbers::pi / around, Vector3::UnitZ());
+  for (Vertex v = 1 + first * around; v < 1 + last * around; ++v)
+    mesh.positions.row(v) = back * map.point(v);
+  const Topology topology(mesh);
+  const RestTriangles source = measure_source(mesh);
+  REQUIRE(certify(topology, map).bijective());
+
+  std::vector<ImagePoint> image = image_of(map);
+  CHECK(slide_layers(topology, source, {}, LimbSearch(topology).next(), image) == 0);
+  CHECK(map_of(image).points == map.points);
+  CHECK(untwist(topology, source, {}, image) == 2);
+  CHECK(energy_of(mesh, map_of(image)) < 0.8 * energy_of(mesh, map));
+  CHECK(certify(topology, map_of(image)).bijective());
 }
 
 TEST_CASE("twists: a body without limbs keeps its bits, and a hub costs no square of its valence") {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "embedding/energy/triangle_packs.h"
+#include "sphere/solid_angle.h"
 
 namespace sphparam {
 
@@ -27,6 +28,18 @@ class PackedTriangles {
   /// As `guarded_energy` of all.
   double energy(const std::vector<ImagePoint>& points, const DistortionEnergy& energy) const {
     return guarded_energy(packs_.data(), count_, points.data(), energy);
+  }
+
+  /// Of all together.
+  double solid_angle(const std::vector<ImagePoint>& points) const {
+    double sum = 0;
+    for (int t = 0; t < count_; ++t) {
+      const auto at_corner = [&](int k) {
+        return points[static_cast<size_t>(corner(t, k))].vector();
+      };
+      sum += sphparam::solid_angle(at_corner(0), at_corner(1), at_corner(2));
+    }
+    return sum;
   }
 
  private:

@@ -1,9 +1,11 @@
 #include "embedding/twists/layer_slides.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
+#include "embedding/energy/packed_triangles.h"
 #include "embedding/twists/strip.h"
 
 // 1. Layers slide where as many vertices are in each: the images of a layer are then the same
@@ -11,6 +13,8 @@
 //    other. Strips are decided one by one.
 // 2. What lies beyond the last layer cannot slide. All slides together go round a whole number of
 //    times: those that gain least are left out.
+// 3. Where two layers slide alike, the strip between them is as before only if its triangles lie
+//    alike all round. What comes of all slides is looked at, and taken back if it is no gain.
 
 namespace sphparam {
 namespace {
@@ -31,13 +35,9 @@ class Slider {
       slides[i] = better_slide(layers[i - 1], layers[i]);
     }
     leave_the_end(slides, static_cast<int>(layers.front().size()));
-    int slid = 0, by = 0;
-    for (size_t i = 1; i < layers.size(); ++i) {
-      slid += slides[i].by != 0;
-      by += slides[i].by;
-      slide(layers[i], by);
-    }
-    return slid;
+    const auto slid =
+        std::ranges::count_if(slides, [](const Strip::Slide& slide) { return slide.by != 0; });
+    return slid > 0 && slide_down(layers, slides) ? static_cast<int>(slid) : 0;
   }
 
  private:
@@ -67,6 +67,43 @@ class Slider {
       for (Strip::Slide& slide : slides)
         if (counts_against(slide) && (!least || slide.falls_by < least->falls_by)) least = &slide;
       sum -= std::exchange(*least, {}).by;
+    }
+  }
+
+  /// False: that would be no gain, and nothing has slid.
+  bool slide_down(const std::vector<VertexLoop>& layers, const std::vector<Strip::Slide>& slides) {
+    const PackedTriangles triangles = triangles_at(layers);
+    const double energy = triangles.energy(image_, energy_), angle = triangles.solid_angle(image_);
+    slide_all(layers, slides, 1);
+    if (triangles.energy(image_, energy_) < energy &&
+        std::abs(triangles.solid_angle(image_) - angle) < 1)
+      return true;
+    slide_all(layers, slides, -1);
+    return false;
+  }
+
+  /// With a corner in a layer. Their corners are vertices.
+  PackedTriangles triangles_at(const std::vector<VertexLoop>& layers) const {
+    std::vector<Face> faces;
+    for (const VertexLoop& layer : layers) {
+      for (const Vertex v : layer)
+        topology_.for_each_outgoing(v, [&](Halfedge h) { faces.push_back(Topology::face(h)); });
+    }
+    std::ranges::sort(faces);
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    PackedTriangles triangles;
+    for (const Face f : faces)
+      triangles.add(source_[at(f)],
+                    {topology_.vertex(f, 0), topology_.vertex(f, 1), topology_.vertex(f, 2)});
+    return triangles;
+  }
+
+  void slide_all(const std::vector<VertexLoop>& layers, const std::vector<Strip::Slide>& slides,
+                 int sense) {
+    int by = 0;
+    for (size_t i = 1; i < layers.size(); ++i) {
+      by += slides[i].by;
+      slide(layers[i], sense * by);
     }
   }
 

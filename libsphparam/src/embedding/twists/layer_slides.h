@@ -14,8 +14,8 @@ namespace sphparam {
 /// layers near each other do not have their images on circles. Returns between how many layers it
 /// slid. Our own.
 ///
-/// Requires: as `untwist`. Ensures: what is in no layer stays; no triangle is folded, up to
-/// rounding. Cost: O(#V of the limb).
+/// Requires: as `untwist`. Ensures: what is in no layer stays; where layers slid, the energy has
+/// fallen, and every determinant is certainly positive. Cost: O(#V of the limb).
 int slide_layers(const Topology& topology, const RestTriangles& source,
                  const DistortionEnergy& energy, const Limb& limb, std::vector<ImagePoint>& image);
 

@@ -7,7 +7,6 @@
 #include <span>
 
 #include "elementary.h"
-#include "sphere/solid_angle.h"
 
 // Few turns come into question: by one vertex or two either way, about the middle of the image of
 // either layer. Each is tried on the strip's own triangles.
@@ -116,7 +115,7 @@ Strip::Slide Strip::better_slide(const DistortionEnergy& energy) const {
 
 /// Triangles that wind about a middle once more are all positive, too.
 bool Strip::winds_alike(const Points& points) const {
-  return std::abs(solid_angle(points) - solid_angle(points_)) < 1;
+  return std::abs(triangles_.solid_angle(points) - triangles_.solid_angle(points_)) < 1;
 }
 
 Strip::Points Strip::slid(int by) const {
@@ -132,18 +131,6 @@ Strip::Points Strip::turned(const Matrix3& turn) const {
   for (size_t i = fixed_; i < points.size(); ++i)
     points[i] = image_point(turn * points[i].vector());
   return points;
-}
-
-/// Of all triangles.
-double Strip::solid_angle(const Points& points) const {
-  double sum = 0;
-  for (int t = 0; t < triangles_.count(); ++t) {
-    const auto corner = [&](int k) {
-      return points[static_cast<size_t>(triangles_.corner(t, k))].vector();
-    };
-    sum += sphparam::solid_angle(corner(0), corner(1), corner(2));
-  }
-  return sum;
 }
 
 }  // namespace sphparam

@@ -36,7 +36,6 @@ class Strip {
   Points turned(const Eigen::Matrix3d& turn) const;
   Points slid(int by) const;
   bool winds_alike(const Points& points) const;
-  double solid_angle(const Points& points) const;
 
   PackedTriangles triangles_;
   Points points_;  // of the fixed layer, then of the moved one
