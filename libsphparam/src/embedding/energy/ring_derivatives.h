@@ -85,7 +85,7 @@ SPHPARAM_INLINE RingModel<W> second_order_model(const Terms& energy, const RestR
     const EnergyTerms<Lanes<W>> e =
         energy.corner_terms(alpha * dot(a, a) + beta * dot(u, u), s, marked, beta);
     m.value += e.f;
-    // ∇K = −2αA − 2β(1 − t)(B − tA);  ∇S = ½(A × B) + ½ x × (A − B) in the tangent plane.
+    // ∇K = −2αA − 2β(1 − t)(B − tA);  ∇S = ½(A × B) + ½ x × (B − A) in the tangent plane.
     const Lanes<W> flat = 1.0 - t, ka = -2.0 * alpha, kb = -2.0 * (beta * flat);
     const Lanes<W> k0 = ka * a.x + kb * u.x, k1 = ka * a.y + kb * u.y, kr = ka * a.z + kb * u.z;
     const Lanes<W> s0 = 0.5 * (a.y - b.y + (a.y * b.z - a.z * b.y));

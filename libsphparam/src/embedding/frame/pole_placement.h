@@ -58,7 +58,7 @@ std::optional<PolePlacement> place_poles(const Topology& topology, const RestTri
                                          const SphereMap& map, Vertex north, Vertex south,
                                          const PolePlacementOptions& options = {});
 
-/// The map turned about z until θ of the given vertex is exactly 0. Points at ±z keep their bits.
+/// The map turned about z until θ of the given vertex is exactly 0. Points at ±z stay there.
 /// Requires: that vertex is not at ±z. Rounding may fold what is nearly flat: certify.
 SphereMap turned_to_meridian(const SphereMap& map, Vertex meridian, int threads = 0);
 

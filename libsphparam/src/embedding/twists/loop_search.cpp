@@ -125,10 +125,12 @@ VertexLoop LoopSearch::shortest_loop(int most_edges) {
   return {};
 }
 
-/// Edges between two branches, with the lengths of their loops, short ones first.
+/// Edges between two branches, with the lengths of their loops, short ones first. Those beyond the
+/// last whole layer, where hubs may be, are too long.
 std::vector<std::pair<int, Halfedge>> LoopSearch::closing_edges(int most_edges) const {
   std::vector<std::pair<int, Halfedge>> closing;
-  for (const Vertex a : ball_) {
+  for (size_t i = 0; i < layer_ends_.back(); ++i) {
+    const Vertex a = ball_[i];
     topology_.for_each_outgoing(a, [&](Halfedge h) {
       const Vertex b = topology_.target(h);
       if (depth_[at(a)] < 1 || depth_[at(b)] < 1 || branch_[at(a)] == branch_[at(b)]) return;
