@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "io/files/base64.h"
+#include "io/formats/ply_writer.h"
 #include "io/formats/vtk/legacy_vtk_reader.h"
 #include "io/formats/vtk/legacy_vtk_writer.h"
 #include "io/formats/vtk/xml_vtk_reader.h"
@@ -41,6 +42,7 @@ MeshFile rich_mesh() {
     file.vertex_properties.push_back(ramp(name, ScalarType::Uint8, vertices, 1));
   file.vertex_properties.push_back(ramp("a%20name\"<&>", ScalarType::Int16, vertices, -3));
   file.vertex_properties.push_back(ramp("sx", ScalarType::Float64, vertices, 1. / 3));
+  file.vertex_properties.push_back(ramp("id", ScalarType::Int64, vertices, -3e9));
   file.face_properties = {ramp("label", ScalarType::Uint32, faces, 1),
                           ramp("weight", ScalarType::Float32, faces, 0.5)};
   file.comments = {"sphparam verdict one-to-one", "", "50% of \"it\" <&> \xc3\xa9",
@@ -191,7 +193,11 @@ TEST_CASE("vtk: legacy text is read with whatever its writers put beside the mes
   CHECK(values_of(file.find_vertex_property("t")) == std::vector<double>{0, 0, 1, 1});
   CHECK(values_of(file.find_vertex_property("ids")).at(3) == 5e9);
   CHECK(values_of(file.find_face_property("region")) == std::vector<double>{4, 3, 2, 1});
-  CHECK(losses_among(file.notes).size() == 2);  // the table, and the array of another length
+  CHECK(losses_among(file.notes) ==
+        std::vector<std::string>{
+            "not carried: lookup table 'mine'", "not carried: array 'odd': it has 3 tuples, not 4",
+            "not carried: names of arrays of points: 'd x' is d_x, 'n' is nx, ny and nz, 'c' is "
+            "red, green and blue and 'uv' is s and t"});
 }
 
 TEST_CASE("vtk: an array of a known name that cannot be what it says keeps its own name") {
@@ -344,8 +350,15 @@ TEST_CASE("vtk: other data is refused by name, and what is wrong by its place") 
   CHECK(contains(complaint(replaced(tetrahedron_vtk, "POLYDATA", "UNSTRUCTURED_GRID")),
                  "UNSTRUCTURED_GRID"));
   CHECK(contains(complaint("<VTKFile type=\"ImageData\"></VTKFile>"), "'ImageData'"));
-  CHECK(contains(complaint("<VTKFile type=\"PolyData\" compressor=\"vtkLZ4DataCompressor\">"),
-                 "vtkLZ4DataCompressor"));
+  CHECK(
+      contains(complaint("<VTKFile type=\"PolyData\" compressor=\"vtkLZ4DataCompressor\">"),
+               "is compressed by 'vtkLZ4DataCompressor', which is not supported: save it with the "
+               "compressor ZLib or None"));
+  for (const char* kind : {"PPolyData", "Collection", "vtkMultiBlockDataSet"})
+    CHECK(contains(complaint("<VTKFile type=\"" + std::string(kind) + "\"></VTKFile>"),
+                   "holds a '" + std::string(kind) +
+                       "', which names files that hold the data: "
+                       "read these one by one"));
   CHECK(contains(complaint(replaced(tetrahedron_vtk, "3 1 2 3", "3 1 2 4"), "a.vtk"),
                  "a.vtk:12: cell names point 4 of 4"));
   CHECK(contains(complaint(replaced(tetrahedron_vtk, "-1 -1\n", "-1 nan\n")),
@@ -356,6 +369,96 @@ TEST_CASE("vtk: other data is refused by name, and what is wrong by its place") 
   CHECK(contains(complaint(replaced(legacy_head, "ASCII", "BINARY") +
                            "FIELD FieldData 1\ncomments 1 1 string\n\xc5word"),
                  "the file ends within strings"));
+}
+
+namespace {
+
+/// A tetrahedron with arrays of its points, as XML.
+std::string with_arrays(const std::string& arrays, const std::string& cells = "") {
+  return "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"4\" NumberOfPolys=\"4\">"
+         "<PointData>" +
+         arrays + "</PointData><CellData>" + cells +
+         "</CellData><Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" "
+         "format=\"ascii\">1 1 1 -1 -1 1 -1 1 -1 1 -1 -1</DataArray></Points><Polys>"
+         "<DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">0 2 1 0 1 3 0 3 2 1 2 3"
+         "</DataArray><DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">3 6 9 12"
+         "</DataArray></Polys></Piece></PolyData></VTKFile>";
+}
+
+std::string array_of(const std::string& type, const std::string& name, const std::string& numbers,
+                     const std::string& more = "") {
+  return "<DataArray type=\"" + type + "\" Name=\"" + name + "\" " + more + " format=\"ascii\">" +
+         numbers + "</DataArray>";
+}
+
+}  // namespace
+
+TEST_CASE("vtk: whole numbers beyond 32 bits are labels, a PLY that has no room for them says so") {
+  const MeshFile file =
+      read(with_arrays(
+               array_of("Int64", "small", "1 2 3 -4") +
+                   array_of("Int64", "id", "3000000000 6000000000 9007199254740991 -3000000000") +
+                   array_of("UInt64", "natural", "1 2 3 3000000000") +
+                   array_of("Int64", "huge", "1152921504606846977 0 0 0") +
+                   array_of("UInt64", "beyond", "9223372036854775808 0 0 0"),
+               array_of("Int64", "of_cells", "3000000000 0 -1 5")),
+           "a.vtp");
+  CHECK(file.find_vertex_property("small")->type == ScalarType::Int32);
+  for (const char* name : {"id", "natural", "huge"})
+    CHECK(file.find_vertex_property(name)->type == ScalarType::Int64);
+  CHECK(file.find_vertex_property("beyond")->type == ScalarType::Float64);
+  CHECK(values_of(file.find_vertex_property("id")) ==
+        std::vector<double>{3e9, 6e9, 9007199254740991, -3e9});
+  CHECK(losses_among(file.notes) ==
+        std::vector<std::string>{
+            "not carried: array 'huge': the last digits of numbers from 2^53 on",
+            "not carried: array 'beyond': the last digits of numbers from 2^53 on"});
+  const MeshFile again = read(serialise_xml_vtk(file, {}), "a.vtp");
+  check_same(file, again);
+  CHECK(losses_of_writing(file, again).empty());
+
+  const MeshFile ply = read(serialise_ply(file), "a.ply");
+  CHECK(ply.find_vertex_property("id")->type == ScalarType::Float64);
+  CHECK(ply.find_vertex_property("id")->values == file.find_vertex_property("id")->values);
+  CHECK(ply.find_vertex_property("natural")->type == ScalarType::Uint32);
+  CHECK(ply.find_face_property("of_cells")->type == ScalarType::Float64);
+  const std::string as =
+      "as labels: whole numbers beyond 32 bits are doubles there, which are averaged (.vtp and "
+      ".vtk have room)";
+  CHECK(losses_of_writing(file, ply) ==
+        std::vector<std::string>{"not carried: id and huge " + as, "not carried: of_cells " + as});
+}
+
+TEST_CASE("vtk: bits of XML are numbers 0 and 1, packed or as text") {
+  const auto packed = [](const std::string& bytes) {
+    return "<DataArray type=\"Bit\" Name=\"packed\" format=\"binary\">" +
+           to_base64(header<std::uint32_t>({bytes.size()}) + bytes) + "</DataArray>";
+  };
+  const MeshFile file =
+      read(with_arrays(packed("\xBF") + array_of("Bit", "text", "0 1 1 0")), "a.vtp");  // 1011 1111
+  CHECK(values_of(file.find_vertex_property("packed")) == std::vector<double>{1, 0, 1, 1});
+  CHECK(values_of(file.find_vertex_property("text")) == std::vector<double>{0, 1, 1, 0});
+  CHECK(file.find_vertex_property("packed")->type == ScalarType::Uint8);
+  CHECK(contains(complaint(with_arrays(packed("ab")), "a.vtp"), "has 16 numbers, not 4"));
+}
+
+TEST_CASE("vtk: arrays that are called otherwise now, or not at all, are told with their reason") {
+  const MeshFile file =
+      read(with_arrays(
+               array_of("Float64", "V", "0 0 0 1 1 1 2 2 2 3 3 3", "NumberOfComponents=\"3\"") +
+                   array_of("Float64", "V_0", "9 8 7 6") + array_of("Float64", "x", "1 2 3 4") +
+                   array_of("Float64", "T", "1 2 3 4") + array_of("Float64", "gap", "1 nan 3 inf"),
+               array_of("Float64", "T", "5 6 7 8") + array_of("Float64", "a b", "5 6 7 8")),
+           "a.vtp");
+  CHECK(values_of(file.find_vertex_property("V_0")) == std::vector<double>{0, 1, 2, 3});
+  CHECK(values_of(file.find_vertex_property("V_0_2")) == std::vector<double>{9, 8, 7, 6});
+  CHECK(file.notes ==
+        std::vector<std::string>{
+            "not carried: array 'gap': 2 of its 4 numbers are not finite",
+            "not carried: names of arrays of points: 'V_0' is V_0_2 and 'x' is x_2",
+            "not carried: names of arrays of cells: 'a b' is a_b",
+            "T: an array of points and one of cells; where the name is asked for, it is that of "
+            "points"});
 }
 
 TEST_CASE("vtk: a file that is cut short anywhere is refused or is whole without the rest") {

@@ -123,8 +123,8 @@ std::vector<std::string> losses_of_writing(const MeshFile& written, const MeshFi
        {std::pair(&written.vertex_properties, &read.vertex_properties),
         {&written.face_properties, &read.face_properties}})
     if (const std::vector<std::string> names = no_labels_now(*before, *after); !names.empty())
-      add_loss(losses, "that " + enumerated(names) +
-                           " are labels: whole numbers beyond 32 bits are doubles there, which are "
+      add_loss(losses, enumerated(names) +
+                           " as labels: whole numbers beyond 32 bits are doubles there, which are "
                            "averaged (.vtp and .vtk have room)");
   const auto has_any = [&](const MeshFile& file, const char* name) {
     return file.find_vertex_property(name) != nullptr;

@@ -11,7 +11,8 @@
 
 namespace sphparam {
 
-/// One named number per vertex or per triangle, kept as doubles (exact for every ScalarType).
+/// One named number per vertex or per triangle, kept as doubles (exact for every ScalarType, of
+/// Int64 up to 2^53). Whole types make labels, which are never mixed.
 struct Property {
   std::string name;
   ScalarType type = ScalarType::Float64;

@@ -51,14 +51,15 @@ void fill(char* at, std::size_t record_bytes, Eigen::Index records, const PlyCol
 
 PlyColumn scalar_column(const Property& property) {
   const auto count = static_cast<Eigen::Index>(property.values.size());
-  const ScalarType type = lossless_type(property.type, property.values.data(), count);
+  const ScalarType type = narrow_lossless_type(property.type, property.values.data(), count);
   return {"property " + std::string(ply_name(type)) + " " + one_line(property.name), type,
           property.values.data()};
 }
 
 std::vector<PlyColumn> vertex_columns(const MeshFile& file) {
   const Points& positions = file.mesh.positions;
-  const ScalarType type = lossless_type(file.position_type, positions.data(), positions.size());
+  const ScalarType type =
+      narrow_lossless_type(file.position_type, positions.data(), positions.size());
   std::vector<PlyColumn> columns;
   for (int axis = 0; axis < 3; ++axis)
     columns.push_back({"property " + std::string(ply_name(type)) + " " + "xyz"[axis], type,
@@ -70,7 +71,7 @@ std::vector<PlyColumn> vertex_columns(const MeshFile& file) {
 
 template <class Table>
 PlyColumn corner_column(const char* name, ScalarType declared, const Table& table) {
-  const ScalarType type = lossless_type(declared, table.data(), table.size());
+  const ScalarType type = narrow_lossless_type(declared, table.data(), table.size());
   const Eigen::Index width = corner_count * table.cols();
   return {"property list uchar " + std::string(ply_name(type)) + " " + name,
           type,

@@ -32,8 +32,8 @@ template <class Table>
 void add_list(std::vector<CornerList>& lists, const char* name, const std::optional<Table>& table,
               ScalarType declared) {
   if (!table) return;
-  lists.push_back({name, lossless_type(declared, table->data(), table->size()), table->data(),
-                   static_cast<int>(table->cols())});
+  lists.push_back({name, narrow_lossless_type(declared, table->data(), table->size()),
+                   table->data(), static_cast<int>(table->cols())});
 }
 
 /// The faces of a file, its triangles put together again.
@@ -48,7 +48,7 @@ class FaceRecords {
       if (property.name == "source_face") continue;
       const auto count = static_cast<Eigen::Index>(property.values.size());
       properties_.push_back(&property);
-      types_.push_back(lossless_type(property.type, property.values.data(), count));
+      types_.push_back(narrow_lossless_type(property.type, property.values.data(), count));
     }
   }
 

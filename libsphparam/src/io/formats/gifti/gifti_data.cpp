@@ -127,8 +127,9 @@ bool fit(double& value, ScalarType type) {
       value = rounded;
       return true;
     }
-    return value == std::floor(value) && value >= std::numeric_limits<T>::lowest() &&
-           value <= std::numeric_limits<T>::max();
+    return value == std::floor(value) &&
+           value >= static_cast<double>(std::numeric_limits<T>::lowest()) &&
+           value <= static_cast<double>(std::numeric_limits<T>::max());
   });
 }
 

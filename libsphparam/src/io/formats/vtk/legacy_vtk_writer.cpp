@@ -26,6 +26,8 @@ const char* vtk_name(ScalarType type) {
       return "int";
     case ScalarType::Uint32:
       return "unsigned_int";
+    case ScalarType::Int64:
+      return "vtktypeint64";
     case ScalarType::Float32:
       return "float";
     case ScalarType::Float64:

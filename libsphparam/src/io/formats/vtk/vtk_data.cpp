@@ -31,6 +31,26 @@ bool parse_type(std::string_view written, VtkType& type) {
   return false;
 }
 
+constexpr std::string_view bit_type = "Bit";
+constexpr std::int64_t bits_per_byte = 8;
+
+/// How many bytes these are in. Requires: count ≥ 0.
+std::uint64_t bytes_of_bits(std::int64_t count) {
+  return static_cast<std::uint64_t>((count + bits_per_byte - 1) / bits_per_byte);
+}
+
+/// Eight to a byte, the first one on top; those of a last byte that are no more of them are left.
+std::vector<double> bits_of_bytes(const std::string& bytes, std::int64_t count) {
+  const auto there = static_cast<std::int64_t>(bytes.size()) * bits_per_byte;
+  const bool fits = count >= 0 && bytes.size() == bytes_of_bits(count);
+  std::vector<double> values(static_cast<std::size_t>(fits ? count : there));
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(bytes[i / bits_per_byte]);
+    values[i] = byte >> (bits_per_byte - 1 - static_cast<int>(i % bits_per_byte)) & 1;
+  }
+  return values;
+}
+
 bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
 /// The bytes of one array, one after another.
@@ -178,8 +198,9 @@ VtkDecoder::VtkDecoder(const VtkDocument& document, std::size_t file_bytes, cons
 
 VtkArray VtkDecoder::numbers(const VtkXmlArray& array, std::int64_t count,
                              std::vector<std::string>& notes) {
-  VtkType type{};
-  if (!parse_type(array.type, type))
+  VtkType type = VtkType::Uint8;
+  const bool is_bits = array.type == bit_type;
+  if (!is_bits && !parse_type(array.type, type))
     fail_in_array(name_, array, "has the unknown type " + quoted(array.type));
   VtkArray decoded;
   decoded.name = array.name;
@@ -188,8 +209,11 @@ VtkArray VtkDecoder::numbers(const VtkXmlArray& array, std::int64_t count,
   if (count != 0 && array.encoding == VtkEncoding::Ascii) {
     decoded.values = numbers_of_text(array, type, name_);
   } else if (count != 0) {
-    DataReader reader(document_, array, name_, numbers_left_ * size_in_bytes(type));
-    decoded.values = numbers_of_bytes(reader.bytes(), type, document_.order, array, name_);
+    DataReader reader(document_, array, name_,
+                      is_bits ? numbers_left_ / bits_per_byte : numbers_left_ * size_in_bytes(type));
+    decoded.values = is_bits
+                         ? bits_of_bytes(reader.bytes(), count)
+                         : numbers_of_bytes(reader.bytes(), type, document_.order, array, name_);
     numbers_left_ -= decoded.values.size();
   }
   const auto found = static_cast<std::int64_t>(decoded.values.size());

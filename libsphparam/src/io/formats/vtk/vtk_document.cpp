@@ -64,6 +64,10 @@ class Builder : public XmlEvents {
   void start_file(std::string_view element, const XmlAttributes& attributes) {
     if (element != "VTKFile") fail("expected <VTKFile>, found " + quoted(element));
     const std::string_view kind = attributes.value("type");
+    if (kind == "PPolyData" || kind == "Collection" || kind.starts_with("vtk"))
+      fail("holds a " + quoted(kind) +
+           ", which names files that hold the data: read these one by one, if they are .vtp, or "
+           "save all as one PolyData (ParaView: Merge Blocks, Extract Surface)");
     if (kind != "PolyData")
       fail("holds a " + quoted(kind) +
            ", which is not supported; PolyData is (a filter such as Extract Surface makes one)");
@@ -76,7 +80,7 @@ class Builder : public XmlEvents {
     const std::string_view compressor = attributes.value("compressor");
     if (!compressor.empty() && compressor != "vtkZLibDataCompressor")
       fail("is compressed by " + quoted(compressor) +
-           ", which is not supported; vtkZLibDataCompressor is");
+           ", which is not supported: save it with the compressor ZLib or None");
     document.compressed = !compressor.empty();
   }
 

@@ -77,6 +77,18 @@ std::string free_name(const std::vector<Property>& properties, std::string name)
   return name + "_" + std::to_string(number);
 }
 
+/// Arrays that are called otherwise now, a line each.
+struct Renamed {
+  std::vector<std::string> lines;
+
+  void add(const VtkArray& array, const std::vector<std::string>& names) {
+    lines.push_back(quoted(array.name) + " is " + enumerated(names));
+  }
+  void tell(const std::string& whose, std::vector<std::string>& notes) const {
+    if (!lines.empty()) add_loss(notes, "names of arrays of " + whose + ": " + enumerated(lines));
+  }
+};
+
 std::string component_name(const VtkArray& array, std::size_t k, const KnownArray* known) {
   if (known) return known->properties[k];
   if (array.width == 1) return array.name;
@@ -85,18 +97,25 @@ std::string component_name(const VtkArray& array, std::size_t k, const KnownArra
   return array.name + "_" + (named ? array.component_names[k] : std::to_string(k));
 }
 
+/// Whether what it is known as says so, or the file alone: then its name goes.
+bool is_named_so(const VtkArray& array, const KnownArray& known) {
+  return std::find(known.names.begin(), known.names.end(), array.name) != known.names.end();
+}
+
 /// Puts an array among the properties of points or cells, `count` of them, or notes why not.
 void adopt(const VtkArray& array, std::int64_t count, std::vector<Property>& properties,
-           std::vector<std::string>& notes) {
+           Renamed& renamed, std::vector<std::string>& notes) {
   const auto leave = [&](const std::string& why) {
     add_loss(notes, "array " + quoted(array.name) + ": " + why);
   };
   if (array.count() != count)
     return leave("it has " + std::to_string(array.count()) + " tuples, not " +
                  std::to_string(count));
-  if (!std::all_of(array.values.begin(), array.values.end(),
-                   [](double value) { return std::isfinite(value); }))
-    return leave("it has values that are not finite");
+  const auto odd = std::count_if(array.values.begin(), array.values.end(),
+                                 [](double value) { return !std::isfinite(value); });
+  if (odd > 0)
+    return leave(std::to_string(odd) + " of its " + std::to_string(array.values.size()) +
+                 " numbers are not finite");
   const KnownArray* const known = known_array(array);
   std::size_t kept = static_cast<std::size_t>(array.width);
   if (known && known->role == VtkRole::Texcoords && kept == 3) {
@@ -105,17 +124,39 @@ void adopt(const VtkArray& array, std::int64_t count, std::vector<Property>& pro
   }
   if (properties.size() + kept > most_properties)
     return leave("only " + std::to_string(most_properties) + " numbers each are kept");
+  std::vector<std::string> names;  // that are not what one expects
   for (std::size_t k = 0; k < kept; ++k) {
-    Property property{free_name(properties, component_name(array, k, known)), array.type, {}};
+    const std::string expected = component_name(array, k, known);
+    Property property{free_name(properties, expected), array.type, {}};
+    if (property.name != expected || (known && !is_named_so(array, *known)))
+      names.push_back(property.name);
     property.values.reserve(static_cast<std::size_t>(count));
     for (std::size_t i = k; i < array.values.size(); i += static_cast<std::size_t>(array.width))
       property.values.push_back(array.values[i]);
     properties.push_back(std::move(property));
   }
+  if (!names.empty()) renamed.add(array, names);
+}
+
+/// Properties of vertices and of faces that have one name: where it is asked for, those of vertices
+/// are meant.
+void tell_shared_names(MeshFile& file) {
+  static const std::vector<std::string> known = {"nx", "ny", "nz", "red", "green", "blue", "alpha"};
+  std::vector<std::string> shared;
+  for (const Property& property : file.face_properties)
+    if (file.find_vertex_property(property.name) &&
+        std::find(known.begin(), known.end(), property.name) == known.end())
+      shared.push_back(property.name);
+  if (shared.empty()) return;
+  const bool one = shared.size() == 1;
+  file.notes.push_back(enumerated(shared) + (one ? ": an array" : ": arrays") +
+                       " of points and one of cells" + (one ? "" : " each") +
+                       "; where the name is asked for, it is that of points");
 }
 
 /// Of arrays of all cells the part of the polygons, which come after vertices and lines.
 void adopt_cells(const VtkSurface& surface, MeshFile& file) {
+  Renamed renamed;
   const std::int64_t faces = surface.polygons.count(), before = surface.other_cells;
   for (const VtkArray& array : surface.cell_arrays) {
     if (surface.has_strips) {
@@ -126,8 +167,9 @@ void adopt_cells(const VtkSurface& surface, MeshFile& file) {
     if (before > 0 && array.count() == before + faces)
       of_faces.values.erase(of_faces.values.begin(),
                             of_faces.values.begin() + before * array.width);
-    adopt(of_faces, faces, file.face_properties, file.notes);
+    adopt(of_faces, faces, file.face_properties, renamed, file.notes);
   }
+  renamed.tell("cells", file.notes);
 }
 
 Points positions_of(const VtkSurface& surface, const std::string& name,
@@ -188,7 +230,13 @@ ScalarType kept_type(VtkType type, const VtkArray& array, std::vector<std::strin
   if (all([](double v) { return holds_exactly(ScalarType::Int32, v); })) return ScalarType::Int32;
   if (!all([](double v) { return std::abs(v) < most_exact; }))
     add_loss(notes, "array " + quoted(array.name) + ": the last digits of numbers from 2^53 on");
-  return ScalarType::Float64;
+  return all([](double v) { return holds_exactly(ScalarType::Int64, v); }) ? ScalarType::Int64
+                                                                           : ScalarType::Float64;
+}
+
+ScalarType common_type(ScalarType first, ScalarType second) {
+  if (first == second) return first;
+  return is_floating(first) || is_floating(second) ? ScalarType::Float64 : ScalarType::Int64;
 }
 
 std::string add_strip(VtkSurface& surface, const std::vector<int>& strip,
@@ -230,12 +278,17 @@ MeshFile as_mesh_file(VtkSurface surface, const std::string& name, const ReadOpt
     file.notes.push_back(counted(surface.turns, "triangle") +
                          " of strips with a vertex twice: left out, as strips turn so");
   static constexpr std::array<std::string_view, 3> rays = {"sx", "sy", "sz"};
+  Renamed renamed;
   for (const VtkArray& array : surface.point_arrays) {
     const bool wanted =
         !options.only_map || std::find(rays.begin(), rays.end(), array.name) != rays.end();
-    if (wanted) adopt(array, file.mesh.vertex_count(), file.vertex_properties, file.notes);
+    if (wanted) adopt(array, file.mesh.vertex_count(), file.vertex_properties, renamed, file.notes);
   }
-  if (!options.only_map) adopt_cells(surface, file);
+  renamed.tell("points", file.notes);
+  if (!options.only_map) {
+    adopt_cells(surface, file);
+    tell_shared_names(file);
+  }
   adopt_triangulation(file, triangulate(file.mesh.positions, surface.polygons));
   file.comments = std::move(surface.comments);
   file.materials = std::move(surface.materials);

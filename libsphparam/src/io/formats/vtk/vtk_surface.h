@@ -15,7 +15,8 @@ namespace sphparam {
 // What legacy and XML files of VTK share: named arrays of tuples, of points and of cells, and what
 // these are among the properties of a mesh file.
 
-/// Types of numbers that VTK writes. Whole numbers of 64 bits are kept as Int32 where all fit.
+/// Types of numbers that VTK writes. Whole numbers of 64 bits are kept as Int32 where all fit,
+/// else as Int64.
 enum class VtkType { Int8, Uint8, Int16, Uint16, Int32, Uint32, Int64, Uint64, Float32, Float64 };
 
 /// Calls function(T{}) with a value of the C++ type behind `type`.
@@ -64,8 +65,11 @@ struct VtkArray {
 };
 
 /// The type under which such numbers are kept: whole numbers of 64 bits as Int32 where all fit,
-/// else as Float64, and those that are rounded by it are told.
+/// else as Int64, or as Float64 beyond that; those that doubles round are told.
 ScalarType kept_type(VtkType type, const VtkArray& array, std::vector<std::string>& notes);
+
+/// That of an array in two pieces: whole numbers stay labels.
+ScalarType common_type(ScalarType first, ScalarType second);
 
 /// What a polydata holds, as it was read.
 struct VtkSurface {

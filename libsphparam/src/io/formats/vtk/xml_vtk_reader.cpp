@@ -86,7 +86,7 @@ class XmlVtkReader {
       return;
     }
     VtkArray& all = *surface_.points;
-    if (points.type != all.type) all.type = ScalarType::Float64;
+    all.type = common_type(all.type, points.type);
     all.values.insert(all.values.end(), points.values.begin(), points.values.end());
   }
 
@@ -167,7 +167,7 @@ class XmlVtkReader {
       return known.name == array.name && known.width == array.width;
     });
     if (same == arrays.end()) return leave(described, "not all pieces have it");
-    if (same->type != array.type) same->type = ScalarType::Float64;
+    same->type = common_type(same->type, array.type);
     same->values.insert(same->values.end(), array.values.begin(), array.values.end());
   }
 

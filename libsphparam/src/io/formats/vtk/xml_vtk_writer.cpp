@@ -29,6 +29,8 @@ const char* vtk_name(ScalarType type) {
       return "Int32";
     case ScalarType::Uint32:
       return "UInt32";
+    case ScalarType::Int64:
+      return "Int64";
     case ScalarType::Float32:
       return "Float32";
     case ScalarType::Float64:
