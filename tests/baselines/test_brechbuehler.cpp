@@ -57,6 +57,9 @@ TEST_CASE("brechbuehler: there is no longitude between neighbours") {
   const TriangleMesh mesh = icosphere(2);
   const Topology topology(mesh);
   CHECK_FALSE(conduct_heat(topology, 5, 5));
+  CHECK_THROWS_WITH(conduct_heat(topology, 5, topology.vertex_count()),
+                    Catch::Contains("south") && Catch::Contains("162"));
+  CHECK_THROWS_WITH(conduct_heat(topology, -1, 5), Catch::Contains("north"));
   CHECK_FALSE(conduct_heat(topology, topology.origin(9), topology.target(9)));
   const BaselineResult result = map_brechbuehler(
       mesh, topology, {.poles = std::pair(topology.origin(9), topology.target(9))});

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "mesh/laplace_system.h"
+#include "option_domain.h"
 #include "sphparam/baselines/brechbuehler.h"
 
 // Latitude: Σ_j (ϕ_j − ϕ_i) = 0, 0 and π at the poles. Longitude: the same without the poles, one
@@ -80,6 +81,8 @@ VectorX conduct_longitude(const Topology& topology, const std::vector<Vertex>& d
 
 std::optional<LatitudeLongitude> conduct_heat(const Topology& topology, Vertex north, Vertex south,
                                               int threads) {
+  require_vertex("north", north, topology.vertex_count());
+  require_vertex("south", south, topology.vertex_count());
   if (north == south || topology.find_halfedge(north, south) >= 0) return std::nullopt;
   LatitudeLongitude map;
   map.latitude = conduct_latitude(topology, north, south, threads);

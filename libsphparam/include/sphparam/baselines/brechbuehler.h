@@ -48,7 +48,8 @@ struct LatitudeLongitude {
 };
 
 /// Latitude and longitude as two stationary temperatures: one between the poles, one around them
-/// from the date line. Nothing when the poles are the same or adjacent. Throws: SolveError.
+/// from the date line. Nothing when the poles are the same or adjacent, or where latitude is flat
+/// in double precision. Throws: std::invalid_argument for a pole that is no vertex; SolveError.
 std::optional<LatitudeLongitude> conduct_heat(const Topology& topology, Vertex north, Vertex south,
                                               int threads = 0);
 
