@@ -305,6 +305,37 @@ TEST_CASE("body_of: names, radii and WKT, and what is none of them") {
   CHECK_THROWS_AS(body_of("vesta", 0), BodyError);
 }
 
+TEST_CASE("body_of: WKT is in the units that it names, and angles in degrees") {
+  const auto wkt = [](const std::string& ellipsoid, const std::string& angles) {
+    return "GEOGCRS[\"X UNIT[ ELLIPSOID[ ]]\",DATUM[\"X\",ELLIPSOID[\"LENGTHUNIT[]\"," + ellipsoid +
+           "]],PRIMEM[\"P\",0,ANGLEUNIT[\"grad\",0.0157079632679]],CS[ellipsoidal,3],AXIS[\"lat\","
+           "north" +
+           angles + "],AXIS[\"lon\",east],AXIS[\"h\",up,LENGTHUNIT[\"metre\",1]]]";
+  };
+  const std::string degrees = ",ANGLEUNIT[\"degree\",0.0174532925199433]";
+  const Vector3 ten = Vector3::Constant(10000);
+  CHECK(body_of(wkt("10,0,LENGTHUNIT[\"kilometre\",1000]", degrees), 1000).semi_axes == ten);
+  CHECK(body_of(wkt("10,0,UNIT[\"kilometre\",1000]", degrees)).semi_axes == ten);
+  CHECK(body_of(wkt("10000,0", "")).semi_axes == ten);
+  CHECK(body_of(wkt("10000,0", ",UNIT[\"degree\",0.01745]")).semi_axes == ten);
+  for (const char* bad : {",ANGLEUNIT[\"radian\",1]", ",UNIT[\"grad\",0.0157079632679]"})
+    CHECK_THROWS_WITH(body_of(wkt("10000,0", bad)),
+                      Contains("in another unit than degrees") &&
+                          Contains("ANGLEUNIT[\"degree\",0.0174532925199433] is needed in it"));
+  CHECK_THROWS_WITH(body_of(wkt("10,0,LENGTHUNIT[\"km\"]", degrees)),
+                    Contains("a unit that is no number above 0: LENGTHUNIT[…]"));
+  CHECK_THROWS_AS(body_of(wkt("10,0,LENGTHUNIT[\"km\",0]", degrees)), BodyError);
+  CHECK_THROWS_WITH(body_of("GEOGCS[\"X\",DATUM[\"X\",SPHEROID[\"X\",10000,0]],PRIMEM[\"P\",0],"
+                            "UNIT[\"radian\",1]]"),
+                    Contains("in another unit than degrees"));
+}
+
+TEST_CASE("body_of: who asks for a body that is not known hears of those there are") {
+  CHECK_THROWS_WITH(body_of("Bennu"),
+                    Contains("which are planets, moons and borrelly, churyumov-") &&
+                        Contains("ida, gaspra; a radius"));
+}
+
 TEST_CASE("body_of: WKT whose latitudes maps have not is refused, with what to give instead") {
   const std::string datum =
       "DATUM[\"Mars (2015)\",ELLIPSOID[\"Mars (2015)\",3396190,169.894447223612]],";
@@ -362,6 +393,22 @@ TEST_CASE("sidecars: coordinates, scale, offset and unit beside each image, or n
   const std::string normal = text_of(folder / "n.png.aux.xml");
   CHECK(std::stod(element(normal, "Offset")) == -1);
   CHECK_THAT(normal, Contains("<PAMRasterBand band=\"3\">"));
+}
+
+TEST_CASE("sidecars: lonlat has two bands in degrees, and one of nothing") {
+  const Folder folder;
+  BakeSettings settings;
+  settings.width = 64;
+  settings.convention = Convention::Gis;
+  settings.fields.body = body_of("Vesta");
+  bake(mapped_radially(star_shaped(0, 3)), {{"lonlat", folder / "l.tif"}}, settings);
+  const std::string bands = text_of(folder / "l.tif.aux.xml");
+  const auto band = [&](int i) { return bands.substr(bands.find("band=\"" + std::to_string(i))); };
+  CHECK(element(band(1), "Description") == "longitude");
+  CHECK(element(band(2), "Description") == "latitude");
+  CHECK(element(band(2), "UnitType") == "degree");
+  CHECK(element(band(3), "Description") == "nothing");
+  CHECK_THAT(band(3), !Contains("UnitType"));
 }
 
 TEST_CASE("sidecars: lengths and curvatures have units, what covers kept holes is no data") {

@@ -48,10 +48,12 @@ class BodyError : public std::invalid_argument {
 
 /// The body of a text: a name of `iau_bodies` in whatever case; a radius, or three semi-axes with
 /// commas between, in the mesh's unit; or the WKT of a geographic coordinate system (GEOGCRS,
-/// GEODCRS or GEOGCS with an ellipsoid), which also says whether longitude grows to the west.
+/// GEODCRS or GEOGCS with an ellipsoid, in the length unit that it names), which also says whether
+/// longitude grows to the west.
 /// Blanks and line ends around it mean nothing. `unit`: metres that the mesh's unit has. Throws:
-/// BodyError, also for radii that are not above 0, for projected systems, and for those whose
-/// latitudes are planetographic: on a flattened ellipsoid, but GEODCRS with CS[spherical].
+/// BodyError, also for radii that are not above 0, for projected systems, for those whose angles
+/// are not in degrees, and for those whose latitudes are planetographic: on a flattened ellipsoid,
+/// but GEODCRS with CS[spherical].
 Body body_of(const std::string& text, double unit = 1);
 
 }  // namespace sphparam

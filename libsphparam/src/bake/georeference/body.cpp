@@ -4,6 +4,8 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <initializer_list>
+#include <numbers>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -69,9 +71,43 @@ bool is_wkt(std::string_view text) {
          text.starts_with("GEOGCS[");
 }
 
+/// Where a keyword begins that is no part of another one, nor of a name in quotes.
+size_t find_keyword(std::string_view wkt, std::string_view keyword) {
+  bool quoted = false;
+  for (size_t i = 0; i < wkt.size(); ++i) {
+    if (wkt[i] == '"') quoted = !quoted;
+    const bool in_word = i > 0 && wkt[i - 1] >= 'A' && wkt[i - 1] <= 'Z';
+    if (!quoted && !in_word && wkt.substr(i).starts_with(keyword)) return i;
+  }
+  return std::string_view::npos;
+}
+
+/// From a keyword to behind its last bracket, names in quotes passed over; nothing where it has no
+/// place.
+std::string_view element_of(std::string_view wkt, std::string_view keyword) {
+  const size_t place = find_keyword(wkt, keyword);
+  if (place == std::string_view::npos) return {};
+  wkt.remove_prefix(place);
+  int depth = 0;
+  bool quoted = false;
+  for (size_t i = 0; i < wkt.size(); ++i) {
+    if (wkt[i] == '"') quoted = !quoted;
+    if (quoted) continue;
+    if (wkt[i] == '[') ++depth;
+    if (wkt[i] == ']' && --depth == 0) return wkt.substr(0, i + 1);
+  }
+  return wkt;
+}
+
+std::string_view behind(std::string_view wkt, std::string_view element) {
+  return element.empty()
+             ? wkt
+             : wkt.substr(static_cast<size_t>(element.data() - wkt.data()) + element.size());
+}
+
 /// What follows `keyword["NAME",` at its first place; nothing where there is none.
 std::optional<std::string_view> after_name(std::string_view wkt, std::string_view keyword) {
-  const size_t place = wkt.find(keyword);
+  const size_t place = find_keyword(wkt, keyword);
   if (place == std::string_view::npos) return std::nullopt;
   const size_t open = wkt.find('"', place);
   const size_t close = open == std::string_view::npos ? open : wkt.find('"', open + 1);
@@ -81,17 +117,55 @@ std::optional<std::string_view> after_name(std::string_view wkt, std::string_vie
   return value == std::string_view::npos ? std::nullopt : std::optional(wkt.substr(value));
 }
 
-/// Semi-major axis and inverse flattening, which is 0 for a sphere.
+/// Of the first of these keywords that has a place: how many metres, or radians, it has.
+/// Nothing: none has. Throws: BodyError for what is no number.
+std::optional<double> unit_in(std::string_view wkt,
+                              std::initializer_list<std::string_view> keywords) {
+  for (const std::string_view keyword : keywords) {
+    if (find_keyword(wkt, keyword) == std::string_view::npos) continue;
+    const auto factor = after_name(wkt, keyword);
+    const auto number = factor ? leading_number(*factor) : std::nullopt;
+    if (!number || !(number->first > 0) || !std::isfinite(number->first))
+      throw BodyError("the WKT of the body has a unit that is no number above 0: " +
+                      std::string(keyword) + "…]");
+    return number->first;
+  }
+  return std::nullopt;
+}
+
+/// The whole of it, unit and all.
+std::string_view ellipsoid_in(std::string_view wkt) {
+  const std::string_view ellipsoid = element_of(wkt, "ELLIPSOID[");
+  return ellipsoid.empty() ? element_of(wkt, "SPHEROID[") : ellipsoid;
+}
+
+/// Semi-major axis in metres, as it is where no unit is said, and inverse flattening, which is 0
+/// for a sphere.
 std::optional<std::pair<double, double>> ellipsoid_of(std::string_view wkt) {
-  std::optional<std::string_view> text = after_name(wkt, "ELLIPSOID[");
-  if (!text) text = after_name(wkt, "SPHEROID[");
+  const std::string_view ellipsoid = ellipsoid_in(wkt);
+  std::optional<std::string_view> text = after_name(ellipsoid, "ELLIPSOID[");
+  if (!text) text = after_name(ellipsoid, "SPHEROID[");
   const auto axis = text ? leading_number(*text) : std::nullopt;
   if (!axis || !axis->second.starts_with(',')) return std::nullopt;
   std::string_view rest = axis->second.substr(1);
   rest.remove_prefix(std::min(rest.find_first_not_of(" \n\t"), rest.size()));
   const auto flattening = leading_number(rest);
   if (!flattening) return std::nullopt;
-  return std::pair(axis->first, flattening->first);
+  const double metres = unit_in(ellipsoid, {"LENGTHUNIT[", "UNIT["}).value_or(1);
+  return std::pair(axis->first * metres, flattening->first);
+}
+
+/// Files beside images count longitude and latitude in degrees. A prime meridian may have a unit of
+/// its own, and so have heights, behind the angles.
+void require_degrees(const std::string& wkt, const std::string& name) {
+  constexpr double degree = std::numbers::pi / 180, rounding = 1e-3;  // files say 0.01745 as well
+  std::string_view angles = behind(wkt, ellipsoid_in(wkt));
+  angles = behind(angles, element_of(angles, "PRIMEM["));
+  const auto unit = unit_in(angles, {"ANGLEUNIT[", "UNIT["});
+  if (!unit || std::abs(*unit - degree) <= rounding * degree) return;
+  throw BodyError("the WKT " + name +
+                  " counts longitude and latitude in another unit than degrees, which images have: "
+                  "ANGLEUNIT[\"degree\",0.0174532925199433] is needed in it");
 }
 
 bool brackets_match(std::string_view wkt) {
@@ -158,7 +232,17 @@ Body of_wkt(const std::string& text, double unit) {
                .unit = unit,
                .positive_west = axes.find(",west") != std::string::npos};
   require_planetocentric(body);
+  require_degrees(text, body.name);
   return body;
+}
+
+/// Comets, dwarf planets and asteroids, whose codes are above those of planets and moons.
+std::string small_bodies() {
+  constexpr long first = 100000000;
+  std::vector<std::string> names;
+  for (const IauBody& body : iau_bodies())
+    if (body.code >= first) names.push_back(in_lower_case(body.name));
+  return joined(names);
 }
 
 }  // namespace
@@ -181,7 +265,8 @@ Body body_of(const std::string& spaced_text, double unit) {
     known.push_back(in_lower_case(body.name));
   }
   throw BodyError("there is no body " + text +
-                      " among those of the IAU; a radius, three semi-axes, or WKT say it too",
+                      " among those of the IAU, which are planets, moons and " + small_bodies() +
+                      "; a radius, three semi-axes, or WKT say it too",
                   in_lower_case(text), std::move(known));
 }
 

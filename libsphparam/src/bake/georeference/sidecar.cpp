@@ -80,9 +80,14 @@ std::string scaling(const SurfaceField& field, int band, SampleType type) {
          element("Scale", shortest((high - low) / full));
 }
 
+/// Images have one channel, three or four: the third of two coordinates is 0.
+bool is_nothing(const SurfaceField& field, int band) {
+  return field.kind == FieldKind::Place && band == 2;
+}
+
 std::string band_name(const SurfaceField& field, int band) {
   if (field.proper_channels() == 1) return field.name;
-  static const char* const places[] = {"longitude", "latitude", "0"};
+  static const char* const places[] = {"longitude", "latitude", "nothing"};
   if (field.kind == FieldKind::Place && field.proper_channels() == 3) return places[band];
   const bool colour = field.kind == FieldKind::Colour;
   return field.name + " " + (colour ? "RGBA"[band] : "xyzw"[band]);
@@ -94,7 +99,7 @@ std::string band_of(const SurfaceField& field, int band, SampleType type) {
     xml += element("Description", "surface") + element("ColorInterp", "Alpha");
   } else {
     xml += element("Description", band_name(field, band));
-    if (!field.unit.empty()) xml += element("UnitType", field.unit);
+    if (!field.unit.empty() && !is_nothing(field, band)) xml += element("UnitType", field.unit);
     xml += scaling(field, band, type);
   }
   return xml + "  </PAMRasterBand>\n";
