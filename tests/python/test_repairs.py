@@ -2,6 +2,7 @@
 
 import os
 import subprocess
+import warnings
 
 import numpy as np
 import pytest
@@ -134,6 +135,17 @@ def test_notes_say_what_is_typed_here():
         assert note.startswith("repair=dict(weld_share=") and "--" not in note
         options = eval(note[len("repair=") : note.index(")") + 1])
         assert len(sp.map(torn, faces, repair=options).vertices) == len(V)
+
+
+@pytest.mark.filterwarnings("ignore::sphparam.LossWarning")
+def test_a_match_with_a_surface_inside_out_says_what_turns_it():
+    there, turned = sp.map(V, F, quality="draft"), sp.map(V, F[:, ::-1], quality="draft")
+    with pytest.warns(sp.LossWarning, match="is inside out .* repair=True where it is mapped turns it over"):
+        sp.match(there, turned)
+    mended = sp.map(V, F[:, ::-1], repair=True, quality="draft")
+    with warnings.catch_warnings():
+        warnings.filterwarnings("error", message=".*inside out")
+        sp.match(there, mended)
 
 
 def several():

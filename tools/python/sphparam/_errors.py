@@ -18,6 +18,7 @@ _typed_here = {
     "another --resolution": "another resolution=",
     "a finer --grid": "a finer grid=",
     "; --keep-holes closes": "; repair=dict(keep_holes=True) closes",
+    "--repair=orientation turns it over": "repair=True where it is mapped turns it over",
     "`sphparam bake --map normal-tangent` makes it": 'bake("normal-tangent") makes it',
     "`sphparam bake --normal-y gl` makes it so": "without normal_y_down it is baked so",
 }
