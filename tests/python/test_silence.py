@@ -321,6 +321,29 @@ def test_faces_without_a_place_have_no_area_to_be_kept():
     assert share == pytest.approx(sp.components(*other, repair=True)[1].area_share)
 
 
+def test_a_mesh_with_more_values_knows_what_was_done_to_it():
+    pieces, faces = soup()
+    two = np.concatenate([pieces, 0.5 * V + 9]), np.concatenate([faces, F + len(pieces)])
+    mended = sp.repair(*two, component=1)
+    more = sp.Mesh(mended, values={"height": mended.vertices[:, 2]})
+    assert mended.area_share == pytest.approx(0.8) and [r.kind for r in mended.repairs][0] == "vertex-welded"
+    mapped = sp.map(mended, values={"height": mended.vertices[:, 2]})
+    assert more.repairs == mapped.repairs == mended.repairs and more.format == mapped.mesh.format == "arrays"
+    assert more.area_share == mapped.mesh.area_share == mended.area_share
+
+
+def test_the_surface_of_what_is_no_mesh_is_none_either(tmp_path):
+    sp.repair(V, F[1:], keep_holes=True).save(tmp_path / "a.ply")
+    data = (tmp_path / "a.ply").read_bytes()
+    at = data.index(b"end_header\n") + len(b"end_header\n")
+    (tmp_path / "a.ply").write_bytes(data[:at] + struct.pack("<d", np.nan) + data[at + 8 :])
+    surface = sp.read(tmp_path / "a.ply", non_finite=True).surface
+    assert len(surface.faces) == len(F) - 1 and not surface.fillers.any()
+    for use in (surface.creased, lambda _: surface.save(tmp_path / "b.ply"), lambda _: sp.measure(surface, surface)):
+        with pytest.raises(sp.MeshError, match="not a finite number: vertices 0"):
+            use(30)
+
+
 # What to type, the best first.
 
 

@@ -607,5 +607,51 @@ def test_the_page_is_opened_in_a_browser(mapped, monkeypatch):
     assert opened == ["file://" + path] and "<html" in open(path).read(1000)
 
 
+def test_pictures_show_what_is_measured_and_textures(mapped, tmp_path):
+    colours = np.full((64, 128, 3), (200, 30, 30), np.uint8)
+    skinned = sp.map(V, F, values={"uv": (V[:, :2] - V[:, :2].min()) / np.ptp(V[:, :2])})
+    mapped.export(tmp_path / "red.gltf", texture=colours, image_size=16)
+    red = tmp_path / "red_basecolor.png"
+    seen = [skinned.picture(size=64, view="mesh", **how) for how in ({}, {"texture": red}, {"colours": "plain"})]
+    assert len(set(seen)) == 3
+    (tmp_path / "skin.mtl").write_text(f"newmtl skin\nmap_Kd {red.name}\n")
+    skinned.mesh.save(tmp_path / "skin.obj")
+    text = (tmp_path / "skin.obj").read_text()
+    (tmp_path / "skin.obj").write_text("mtllib skin.mtl\nusemtl skin\n" + text)
+    own = sp.load(tmp_path / "skin.obj").picture(size=64, view="mesh")
+    assert own == seen[1]
+    program("render", "skin.obj", "--view", "mesh", "--size", "64", "-o", "skin.png", cwd=tmp_path)
+    assert own == (tmp_path / "skin.png").read_bytes()
+    mapped.save(tmp_path / "a.sph.ply")
+    ours = mapped.picture(size=64, scalar="height", range=(-0.5, 1))
+    program("render", "a.sph.ply", "--scalar", "height", "--range=-0.5,1", "--size", "64", "-o", "a.png", cwd=tmp_path)
+    assert ours == (tmp_path / "a.png").read_bytes() != mapped.picture(size=64, scalar="height")
+
+
+@pytest.mark.parametrize(
+    "how, words",
+    [
+        (dict(scalar="sulc"), "no property 'sulc'"),
+        (dict(scalar="color"), "scalar: 'color' has 3 columns, a picture each: red, green, blue"),
+        (dict(scalar="height", colours="area"), "scalar: has colours of its own"),
+        (dict(scalar="height", range=(1, 0)), "range: two finite numbers .* smaller one first"),
+        (dict(scalar="height", range=(0, np.inf)), "range: two finite numbers"),
+        (dict(scalar="height", range=(0, 1, 2)), "range: two finite numbers"),
+        (dict(range=(0, 1)), "range: the scale of scalar"),
+    ],
+)
+def test_a_picture_of_numbers_that_are_not_there_is_refused(how, words, mapped):
+    with pytest.raises(ValueError, match=words):
+        mapped.picture(size=32, **how)
+
+
+def test_a_picture_of_a_texture_without_coordinates_is_refused(mapped, tmp_path):
+    mapped.bake_files({"position": tmp_path / "a.png"}, size=16)
+    with pytest.raises(ValueError, match="^texture: "):
+        mapped.picture(size=32, texture=tmp_path / "a.png")
+    with pytest.raises(FileNotFoundError):
+        mapped.picture(size=32, texture=tmp_path / "b.png")
+
+
 def test_a_picture_is_a_png(mapped):
     assert mapped.picture(size=64, view="sphere", colours="checker").startswith(b"\x89PNG")

@@ -14,6 +14,7 @@
 #include "sphparam/paint/paint.h"
 #include "sphparam/render/picture.h"
 #include "sphparam/texture/equirectangular_image.h"
+#include "sphparam/texture/mesh_textures.h"
 
 namespace sphparam::python {
 namespace {
@@ -84,8 +85,17 @@ const char* word_of(Colouring colouring) {
   return "angle";
 }
 
-DrawingOptions drawing_options(const py::dict& values) {
-  DrawingOptions made;
+/// What is drawn, and the image for the mesh's texture coordinates; empty: its own.
+struct Drawing {
+  DrawingOptions options;
+  std::string texture;
+
+  bool shows_own() const { return options.colouring == Colouring::Own && options.scalar.empty(); }
+};
+
+Drawing drawing_of(const py::dict& values) {
+  Drawing drawing;
+  DrawingOptions& made = drawing.options;
   Settings settings(values);
   View view = View::Both;
   settings.take("view", view, {View::Mesh, View::Sphere, View::Both},
@@ -96,6 +106,9 @@ DrawingOptions drawing_options(const py::dict& values) {
             {Colouring::Own, Colouring::Plain, Colouring::Normals, Colouring::Checker,
              Colouring::Area, Colouring::Angle},
             [](Colouring word) { return word_of(word); })
+      .take_path("texture", drawing.texture)
+      .take("scalar", made.scalar)
+      .take("range", made.range)
       .take("size", made.size)
       .take("wireframe", made.wireframe)
       .take("graticule", made.graticule)
@@ -109,18 +122,37 @@ DrawingOptions drawing_options(const py::dict& values) {
   if (from) made.from = Vector3((*from)[0], (*from)[1], (*from)[2]);
   made.up = up_of(up, front);
   settings.require_all_known();
-  return made;
+  return drawing;
 }
 
-/// The bytes of a PNG.
-py::bytes draw(const Mapped& mapped, const py::dict& values) {
-  const DrawingOptions options = drawing_options(values);
-  return call(py::none(), [=, mesh = mapped.mesh()](const Progress&) {
-    const UprightAxes axes = upright_axes(mesh.file(), options.up);
-    if (!map_is_upright(mesh.provenance(), axes)) return draw_png(mesh.file(), mesh.map(), options);
-    // As from a file, which says so.
-    return draw_png(attach_map(mesh.file(), mesh.map(), mesh.provenance()), mesh.map(), options);
+std::string drawn(const MappedMesh& mesh, const DrawingOptions& options) {
+  const UprightAxes axes = upright_axes(mesh.file(), options.up);
+  if (!map_is_upright(mesh.provenance(), axes)) return draw_png(mesh.file(), mesh.map(), options);
+  // As from a file, which says so.
+  return draw_png(attach_map(mesh.file(), mesh.map(), mesh.provenance()), mesh.map(), options);
+}
+
+/// The textures that are shown; returns what stands against those of the mesh's file.
+std::string take_shown_textures(Drawing& drawing, const MappedMesh& mesh) try {
+  ShownTextures shown =
+      shown_textures(mesh.file(), mesh.name(), drawing.texture, drawing.options.threads);
+  drawing.options.textures = std::move(shown.textures);
+  return shown.warning + (shown.left_behind ? "; texture=IMAGE names it" : "");
+} catch (const NoTexcoords& error) {
+  throw std::invalid_argument(std::string("texture: ") + error.what());
+}
+
+/// The bytes of a PNG, and warnings.
+py::tuple draw(const Mapped& mapped, const py::dict& values) {
+  const Drawing wanted = drawing_of(values);
+  const auto [png, told] = call(py::none(), [wanted, mesh = mapped.mesh()](const Progress&) {
+    Drawing drawing = wanted;
+    std::vector<std::string> warnings;
+    if (drawing.shows_own()) warnings.push_back(take_shown_textures(drawing, mesh));
+    std::erase(warnings, "");
+    return std::pair(drawn(mesh, drawing.options), std::move(warnings));
   });
+  return py::make_tuple(py::bytes(png), as_texts(told));
 }
 
 }  // namespace

@@ -180,6 +180,14 @@ def three(thing: Any, name: str) -> Tuple[float, float, float]:
     return float(x), float(y), float(z)
 
 
+def least_and_greatest(thing: Any, name: str) -> Tuple[float, float]:
+    """Two finite numbers, the smaller one first."""
+    ends = [real(end, name) for end in listed(thing, name, "two numbers")]
+    if len(ends) != 2 or not np.isfinite(ends).all() or not ends[0] < ends[1]:
+        raise ValueError(f"{name}: two finite numbers are needed, the smaller one first, not {thing!r}")
+    return ends[0], ends[1]
+
+
 def width_and_height(size: Any) -> Tuple[int, int]:
     """Texels both ways; how many there may be is told later."""
     sides = listed(size, "size", "two numbers, width and height,")

@@ -284,6 +284,9 @@ class MapImages(MapFacts):
         *,
         view: str = "both",
         colours: str = "own",
+        texture: Optional[Path] = None,
+        scalar: str = "",
+        range: Optional[Tuple[float, float]] = None,
         size: int = 800,
         eye: Optional[Tuple[float, float, float]] = None,
         up: Optional[Direction] = None,
@@ -297,14 +300,16 @@ class MapImages(MapFacts):
     ) -> bytes:
         """A picture of the mesh and its sphere, as the bytes of a PNG.
 
-        ``view``: ``"mesh"``, ``"sphere"``, ``"both"``. ``colours``: ``"own"``, ``"plain"``,
-        ``"normals"``, ``"checker"``, ``"area"``, ``"angle"``. ``size``: pixels, 16 to 16384. ``eye``:
+        ``view``: ``"mesh"``, ``"sphere"``, ``"both"``. ``colours``: ``"own"``, textures, else colours of vertices or
+        materials, else directions; ``"plain"``, ``"normals"``, ``"checker"``, ``"area"``, ``"angle"``. ``texture``: an
+        image for the mesh's texture coordinates, instead of its own. ``scalar``: a number a vertex, by its name, shown
+        as colours; ``range``: their scale, the smaller one first; None: its 2nd to its 98th percentile. ``size``: pixels, 16 to 16384. ``eye``:
         the direction to look from; ``up``, ``front``: as of :meth:`export`. ``wireframe``, ``graticule``:
         lines; ``occlusion``: darker where little light comes; ``legend``: below colours
         that are numbers. ``transparent``: no white background, and no legend.
         """
         options: Dict[str, Any] = dict(
-            view=view, colours=colours, size=size, up=as_direction(up, "up"), front=as_direction(front, "front"),
+            view=view, colours=colours, scalar=self._shown_scalar(scalar), size=size, up=as_direction(up, "up"), front=as_direction(front, "front"),
             wireframe=wireframe, graticule=graticule,
             occlusion=occlusion, legend=legend, transparent=transparent, threads=_arrays.threads(threads),
         )  # fmt: skip
@@ -312,4 +317,21 @@ class MapImages(MapFacts):
             options["eye"] = _arrays.three(eye, "eye")
             if not any(options["eye"]):
                 raise ValueError("eye: 0, 0, 0 is no direction")
-        return _core.draw(self._mapped, options)
+        if texture is not None:
+            options["texture"] = existing(texture)
+        if range is not None:
+            options["range"] = _arrays.least_and_greatest(range, "range")
+        if options["scalar"] and (texture is not None or colours != "own"):
+            raise ValueError("scalar: has colours of its own; leave out colours and texture")
+        if range is not None and not options["scalar"]:
+            raise ValueError("range: the scale of scalar, which is not given")
+        png, warned = _core.draw(self._mapped, options)
+        tell(warned)
+        return png
+
+    def _shown_scalar(self, name: str) -> str:
+        """Of several numbers a vertex tells which one to name."""
+        names = self.values.columns(_arrays.text(name, "scalar"))
+        if len(names) > 1:
+            raise ValueError(f"scalar: {name!r} has {len(names)} columns, a picture each: {', '.join(names)}")
+        return names[0]

@@ -100,6 +100,12 @@ class Mesh:
         mesh._welds, mesh._outside = (), ""
         return mesh
 
+    def _with(self, source: _core.Source) -> Mesh:
+        """Another one that came about as this did."""
+        mesh = Mesh._of(source, self._sound, self._share)
+        mesh._welds, mesh._outside = self._welds, self._outside
+        return mesh
+
     def _require_sound(self) -> None:
         if not self._sound:
             try:
@@ -151,9 +157,7 @@ class Mesh:
         if made is None:
             tell([has_own_normals(path_told(self.path))])
             return self
-        other = Mesh._of(made, share=self._share)
-        other._welds = self._welds
-        return other
+        return self._with(made)
 
     @property
     def fillers(self) -> npt.NDArray[numpy.bool_]:
@@ -164,7 +168,7 @@ class Mesh:
     @property
     def surface(self) -> Mesh:
         """The mesh without its fillers, which has holes then; itself where it has none."""
-        return Mesh._of(_core.surface(self._source)) if self.fillers.any() else self
+        return self._with(_core.surface(self._source)) if self.fillers.any() else self
 
     @property
     def area_share(self) -> float:
@@ -262,7 +266,7 @@ def any_mesh(mesh: Any, faces: Any, values: Optional[Mapping[str, Any]] = None) 
         if faces is not None:
             raise TypeError("faces: the mesh has its own")
         found = mesh if isinstance(mesh, Mesh) else mesh.mesh
-        return found if not values else _with_values(Mesh._of(_core.copied(found._source), found._sound), values)
+        return found if not values else _with_values(found._with(_core.copied(found._source)), values)
     parts = parts_of(mesh) if faces is None else None
     vertices, faces = (parts.vertices, parts.faces) if parts else (_arrays.points(mesh), _arrays.triangles(faces))
     source, finite, inside = _core.source_of(vertices, faces)
