@@ -1409,6 +1409,50 @@ TEST_CASE("gltf_reader: meshes that nodes scale to nothing are left out and told
                  "node 0: its transform is not finite"));
 }
 
+TEST_CASE("gltf_reader: what nodes hide, with all below, is left out and told, unless all is") {
+  const std::string hides = R"("extensions":{"KHR_node_visibility":{"visible":false}})";
+  const std::string shows = R"("extensions":{"KHR_node_visibility":{"visible":true}})";
+  Gltf gltf = tetrahedron_gltf();
+  gltf.rest = R"("nodes":[{"mesh":0},{"mesh":0,"children":[2],)" + hides + R"(},{"mesh":0,)" +
+              shows +
+              R"(}],"scenes":[{"nodes":[0,1]}],"scene":0,)"
+              R"("extensionsRequired":["KHR_node_visibility"])";
+  const sphparam::MeshFile file = read(gltf.bytes());
+  CHECK(file.mesh.triangles == tetrahedron().triangles);
+  CHECK(file.notes == std::vector<std::string>{"not carried: 2 meshes that nodes hide, as node 1"});
+  gltf.rest = replaced(gltf.rest, hides, shows);
+  CHECK(read(gltf.bytes()).mesh.face_count() == 12);
+  CHECK(contains(complaint(with(R"("mesh":0)", R"("mesh":0,)" + hides)), "node 0: it is hidden"));
+}
+
+TEST_CASE("gltf_reader: extensions of nodes that are not read are told, each once") {
+  const std::string said = R"("extensions":{"VENDOR_foo":{},"OMI_seat":{},"MSFT_lod":{}})";
+  Gltf gltf = tetrahedron_gltf();
+  gltf.rest = R"("nodes":[{"mesh":0,)" + said + R"(},{)" + said +
+              R"(}],"scenes":[{"nodes":[0,1]}],"scene":0)";
+  CHECK(read(gltf.bytes()).notes ==
+        std::vector<std::string>{"not carried: 'OMI_seat' and 'VENDOR_foo' of nodes"});
+}
+
+TEST_CASE("gltf_reader: colours and texture coordinates that morph targets move are told") {
+  Gltf gltf = tetrahedron_gltf();
+  gltf.add(floats({1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0}), 5126, 4, "VEC3");
+  const auto told = [&](const std::string& weights) {
+    gltf.meshes = R"([{"primitives":[{"attributes":{"POSITION":0,"COLOR_0":2},"indices":1,)"
+                  R"("targets":[{"POSITION":2,"COLOR_0":2},{"TEXCOORD_0":2}]}],"weights":)" +
+                  weights + "}]";
+    return sphparam::losses_among(read(gltf.bytes()).notes);
+  };
+  const std::string read_as =
+      "not carried: 2 morph targets: the mesh is read as their weights stand";
+  CHECK(told("[1,0]") ==
+        std::vector<std::string>{read_as + ", but for COLOR_0, which are as without them"});
+  CHECK(told("[1,1]") ==
+        std::vector<std::string>{read_as +
+                                 ", but for COLOR_0 and TEXCOORD_0, which are as without them"});
+  CHECK(told("[0,0]") == std::vector<std::string>{"not carried: 2 morph targets"});
+}
+
 TEST_CASE("gltf_reader: of an image that is not read its kind is named") {
   for (const auto& [extension, kind] : {std::pair("KHR_texture_basisu", "KTX2"),
                                         {"EXT_texture_avif", "AVIF"},

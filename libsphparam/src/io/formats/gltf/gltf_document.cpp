@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <set>
 #include <stdexcept>
 
 #include "io/formats/gltf/gltf_authorship.h"
@@ -139,6 +140,27 @@ std::size_t variants_of(const tinygltf::Model& model) {
   return found->second.Get("variants").ArrayLen();
 }
 
+constexpr char visibility[] = "KHR_node_visibility";
+
+bool is_hidden(const tinygltf::Node& node) {
+  const auto found = node.extensions.find(visibility);
+  if (found == node.extensions.end() || !found->second.IsObject()) return false;
+  const tinygltf::Value& visible = found->second.Get("visible");
+  return visible.IsBool() && !visible.Get<bool>();
+}
+
+/// What nodes say by extensions that are not read. Coarser levels of detail are the same again,
+/// lights are told by their number.
+std::vector<std::string> unread_of_nodes(const tinygltf::Model& model) {
+  std::set<std::string> names;
+  for (const tinygltf::Node& node : model.nodes)
+    for (const auto& [name, value] : node.extensions) names.insert(sphparam::quoted(name));
+  for (const char* read :
+       {visibility, "EXT_mesh_gpu_instancing", "MSFT_lod", "KHR_lights_punctual"})
+    names.erase(sphparam::quoted(read));
+  return {names.begin(), names.end()};
+}
+
 void note_losses(const tinygltf::Model& model, const SceneOrigin& origin, GltfDocument& document) {
   std::vector<std::string> words;
   const auto add = [&](std::size_t count, const char* thing) {
@@ -149,6 +171,8 @@ void note_losses(const tinygltf::Model& model, const SceneOrigin& origin, GltfDo
   add(model.lights.size(), "light");
   add(variants_of(model), "variant");
   if (!words.empty()) add_loss(document.notes, enumerated(words));
+  const std::vector<std::string> unread = unread_of_nodes(model);
+  if (!unread.empty()) add_loss(document.notes, enumerated(unread) + " of nodes");
   if (!origin.has_own_extras) return;
   const std::string metadata = other_metadata(model);
   if (!metadata.empty()) add_loss(document.notes, metadata);
@@ -169,6 +193,7 @@ std::map<std::string, int> instances_of(const tinygltf::Node& node) {
 
 GltfDocument::Node plain(const tinygltf::Node& node) {
   return {.mesh = node.mesh,
+          .is_hidden = is_hidden(node),
           .skin = node.skin,
           .instances = instances_of(node),
           .children = node.children,

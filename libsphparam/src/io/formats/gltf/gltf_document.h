@@ -46,6 +46,7 @@ struct GltfDocument {
   };
   struct Node {
     int mesh = -1;
+    bool is_hidden = false;  // with all below it
     int skin = -1;
     std::map<std::string, int> instances;  // of the mesh: attributes to accessors; empty: one
     std::vector<int> children;

@@ -23,8 +23,8 @@ bool starts_with_any(std::string_view text, std::initializer_list<std::string_vi
 bool is_supported(std::string_view extension) {
   return starts_with_any(
       extension, {"KHR_mesh_quantization", "EXT_meshopt_compression", "KHR_draco_mesh_compression",
-                  "EXT_mesh_gpu_instancing", "KHR_materials_", "KHR_lights_punctual",
-                  "KHR_texture_", "EXT_texture_", "MSFT_texture_dds"});
+                  "EXT_mesh_gpu_instancing", "KHR_node_visibility", "KHR_materials_",
+                  "KHR_lights_punctual", "KHR_texture_", "EXT_texture_", "MSFT_texture_dds"});
 }
 
 class Checker : public nlohmann::json_sax<Json> {

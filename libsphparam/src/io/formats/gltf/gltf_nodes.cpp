@@ -42,36 +42,40 @@ class NodeWalk {
 
   PlacedScene visit(const std::vector<int>& roots) const {
     PlacedScene placed;
-    std::vector<int> hidden;
+    std::vector<int> flat, hidden;
     placed.nodes.resize(document_.nodes.size());
     std::vector<char> seen(document_.nodes.size());
     std::vector<Visit> waiting;
-    const auto wait_for = [&](const std::vector<int>& nodes, const Transform& above) {
+    const auto wait_for = [&](const std::vector<int>& nodes, const Transform& above, bool is_seen) {
       for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
         if (*node < 0 || *node >= static_cast<int>(document_.nodes.size()))
           fail("node " + std::to_string(*node) + " is not there");
         if (std::exchange(seen[static_cast<std::size_t>(*node)], 1))
           fail("node " + std::to_string(*node) + " has two parents");
-        waiting.push_back({*node, above});
+        waiting.push_back({*node, above, is_seen});
       }
     };
-    wait_for(roots, {});
+    wait_for(roots, {}, true);
     while (!waiting.empty()) {
       const Visit here = waiting.back();
       waiting.pop_back();
       const GltfDocument::Node& node = document_.nodes[static_cast<std::size_t>(here.node)];
       const Transform transform = here.above * local_transform(here.node);
+      const bool is_seen = here.is_seen && !node.is_hidden;
       placed.nodes[static_cast<std::size_t>(here.node)] = transform;
       if (node.mesh >= 0) {
         check_placement(here.node, transform);
-        if (transform.linear.determinant() == 0)
+        if (!is_seen)
           hidden.push_back(here.node);
+        else if (transform.linear.determinant() == 0)
+          flat.push_back(here.node);
         else
           placed.meshes.push_back({node.mesh, here.node, transform});
       }
-      wait_for(node.children, transform);
+      wait_for(node.children, transform, is_seen);
     }
-    leave_out(hidden, placed);
+    leave_out(flat, placed, "scale to nothing", "its transform is singular");
+    leave_out(hidden, placed, "hide", "it is hidden, as all else is (KHR_node_visibility)");
     return placed;
   }
 
@@ -79,6 +83,7 @@ class NodeWalk {
   struct Visit {
     int node;
     Transform above;
+    bool is_seen;  // no node above hides it
   };
 
   [[noreturn]] void fail(const std::string& message) const { throw ReadError(name_, message); }
@@ -91,14 +96,14 @@ class NodeWalk {
       fail("node " + std::to_string(id) + ": its transform is not finite");
   }
 
-  /// A scale of 0 is how exporters hide things: of the mesh there is no volume, if anything.
-  void leave_out(const std::vector<int>& hidden, const PlacedScene& placed) const {
-    if (hidden.empty()) return;
-    const std::string first = "node " + std::to_string(hidden.front());
-    if (placed.meshes.empty()) fail(first + ": its transform is singular");
-    const auto count = static_cast<long>(hidden.size());
-    add_loss(notes_,
-             counted(count, "mesh", "meshes") + " that nodes scale to nothing, as " + first);
+  /// Exporters hide things by a scale of 0, or by a word: KHR_node_visibility.
+  void leave_out(const std::vector<int>& nodes, const PlacedScene& placed, const char* how,
+                 const char* nothing_left) const {
+    if (nodes.empty()) return;
+    const std::string first = "node " + std::to_string(nodes.front());
+    if (placed.meshes.empty()) fail(first + ": " + nothing_left);
+    const auto count = static_cast<long>(nodes.size());
+    add_loss(notes_, counted(count, "mesh", "meshes") + " that nodes " + how + ", as " + first);
   }
 
   Transform local_transform(int id) const {

@@ -38,9 +38,10 @@ struct PlacedScene {
 /// The default scene (the first one, where none is named; without scenes, every node that is no
 /// child).
 ///
-/// `notes` gets a line where there are several scenes, and one where meshes are left out because
-/// their nodes scale them to nothing. Throws: ReadError when a node or mesh is not there, a node
-/// has two parents, a transform is malformed or not finite, or all meshes are scaled to nothing.
+/// `notes` gets a line where there are several scenes, and one each where meshes are left out
+/// because their nodes scale them to nothing or hide them (KHR_node_visibility). Throws: ReadError
+/// when a node or mesh is not there, a node has two parents, a transform is malformed or not
+/// finite, or all meshes are left out.
 PlacedScene place_scene(const GltfDocument& document, const std::string& name,
                         std::vector<std::string>& notes);
 

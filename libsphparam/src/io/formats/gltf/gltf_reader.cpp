@@ -211,6 +211,15 @@ class SceneReader {
     weights_ = node.weights.empty() ? primitive.weights : node.weights;
     weights_.resize(targets_->size(), 0);
     any_morphed_ = any_morphed_ || is_morphed();
+    for (std::size_t t = 0; t < weights_.size(); ++t)
+      if (weights_[t] != 0) note_unmoved((*targets_)[t]);
+  }
+
+  /// What `morphed` is not asked for.
+  void note_unmoved(const std::map<std::string, int>& target) {
+    for (const auto& [attribute, accessor] : target)
+      if (attribute != "POSITION" && attribute != "NORMAL" && attribute != "TANGENT")
+        unmoved_.insert(one_line(attribute));
   }
 
   bool is_morphed() const {
@@ -601,8 +610,7 @@ class SceneReader {
       add_loss(file_.notes,
                "the instances of " + counted(read_once_, "mesh", "meshes") + ", read once");
     if (morph_targets_ > 0)
-      add_loss(file_.notes, counted(morph_targets_, "morph target") +
-                                (any_morphed_ ? ": the mesh is read as their weights stand" : ""));
+      add_loss(file_.notes, counted(morph_targets_, "morph target") + how_morphed());
     std::vector<std::string> not_carried;
     for (const std::string& attribute : not_carried_)
       not_carried.push_back(
@@ -614,6 +622,14 @@ class SceneReader {
       file_.notes.push_back(counted(accessors_.misaligned(), "accessor") +
                             " not aligned as glTF wants it: read all the same");
     for (const std::string& note : document_.notes) file_.notes.push_back(note);
+  }
+
+  std::string how_morphed() const {
+    if (!any_morphed_) return "";
+    const std::string read = ": the mesh is read as their weights stand";
+    if (unmoved_.empty()) return read;
+    return read + ", but for " + enumerated({unmoved_.begin(), unmoved_.end()}) +
+           ", which are as without them";
   }
 
   const GltfDocument& document_;
@@ -645,6 +661,7 @@ class SceneReader {
   bool is_broken_ = false;                           // the skin of the mesh being read
   std::ptrdiff_t morph_targets_ = 0;
   bool any_morphed_ = false;
+  std::set<std::string> unmoved_;  // attributes that weights in the file would move
   const std::vector<std::map<std::string, int>>* targets_ = nullptr;  // of the primitive being read
   std::vector<double> weights_;                                       // of these
   std::vector<double> morphed_;  // numbers that they have moved
