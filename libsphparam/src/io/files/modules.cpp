@@ -3,8 +3,11 @@
 #include <dlfcn.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
+#include <new>
 #include <string>
 #include <system_error>
 
@@ -66,6 +69,15 @@ std::string all_places(const std::string& said) {
 
 }  // namespace
 
+bool says_no_memory(const std::string& said, const std::string& module) {
+  const auto contains = [&](const char* words) { return said.find(words) != std::string::npos; };
+  // Of a library of the system it is memory; of the module, a disk that forbids to run what it has
+  // sounds the same.
+  const bool of_library = !said.starts_with(module + ":");
+  return contains("Cannot allocate memory") || contains("cannot map zero-fill pages") ||
+         (of_library && contains("failed to map segment from shared object"));
+}
+
 std::vector<Path> module_folders() {
   std::vector<Path> folders;
   if (const char* const named = secure_getenv("SPHPARAM_MODULES"); named && *named) {
@@ -86,6 +98,9 @@ void* function_of_module(const ModuleWords& words, const char* function) {
   void* module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (module) return dlsym(module, function);
   const std::string said = dlerror();
+  if (says_no_memory(said, path.string())) throw std::bad_alloc();
+  if (said.find(std::strerror(EMFILE)) != std::string::npos)
+    throw ModuleError(std::string("cannot open the ") + words.name + ": " + said);
   if (path.has_parent_path())
     throw ModuleError(std::string("cannot open the ") + words.name + ": " + said + "; " +
                       words.library);

@@ -22,8 +22,11 @@ struct ModuleWords {
 };
 
 /// The address of a module's one function, opened once and never closed. Null: it has none such.
-/// Throws: ModuleError.
+/// Throws: ModuleError; std::bad_alloc where there is no memory for it.
 void* function_of_module(const ModuleWords& module, const char* function);
+
+/// Whether what the loader said of a module means that memory is short.
+bool says_no_memory(const std::string& said, const std::string& module);
 
 /// Where modules may be, in the order in which they are looked for: in the folder that the
 /// environment's SPHPARAM_MODULES names; about the running program; about the shared library that
