@@ -9,6 +9,7 @@
 #include "console/places.h"
 #include "number_text.h"
 #include "reports/told_fillers.h"
+#include "reports/told_losses.h"
 #include "sphparam/io/coef_file.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/planetocentric.h"
@@ -164,9 +165,12 @@ int run_spharm(SpharmArguments& arguments) {
   if (!arguments.shadr.empty()) session.files.add(arguments.shadr, to_shadr(expansion));
   if (!arguments.coef.empty())
     session.files.add(arguments.coef, to_coef(expansion.fit.coefficients));
-  if (!arguments.reconstruction.empty())
+  if (!arguments.reconstruction.empty()) {
+    tell_losses(arguments.reconstruction, reconstruction_losses(mapped, expansion),
+                session.console);
     add_reconstruction(session.files, arguments.reconstruction, mapped, expansion,
                        session.threads());
+  }
   session.publish();
   session.console.say(display_name(arguments.input) + ": " + residual_line(expansion) + ", " +
                       short_number(session.stopwatch.seconds()) + " s");

@@ -105,13 +105,6 @@ TextTable read_table(std::string_view text, char separator, const std::string& n
   return table;
 }
 
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n\t") == std::string::npos) return text;
-  std::string field = "\"";
-  for (const char c : text) field += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return field + "\"";
-}
-
 std::string tsv_field(const std::string& text) {
   std::string field;
   for (const char c : text) {

@@ -4,6 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "csv_field.h"
+
 namespace sphparam {
 
 /// Without their ends, "\n" or "\r\n".
@@ -18,9 +20,6 @@ struct TextTable {
 /// out, blanks about the names of columns too. `name`: of the file, for messages.
 /// Throws: BatchInputError with the line, for rows of other length and quotes that do not end.
 TextTable read_table(std::string_view text, char separator, const std::string& name);
-
-/// A field of CSV: in quotes where it must be.
-std::string csv_field(const std::string& text);
 
 /// A field of a manifest: tab, line feed, carriage return and backslash as \t, \n, \r, \\.
 std::string tsv_field(const std::string& text);

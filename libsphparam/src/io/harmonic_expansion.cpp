@@ -1,6 +1,7 @@
 #include "sphparam/io/harmonic_expansion.h"
 
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "sphere/solid_angle.h"
 #include "sphparam/errors.h"
 #include "sphparam/io/certified_files.h"
+#include "sphparam/io/losses.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/planetocentric.h"
 
@@ -64,6 +66,36 @@ SphereMap turned_map(const MappedMesh& mapped, const HarmonicExpansion& expansio
   if (expansion.aligned == HarmonicAlignment::None) return mapped.map();
   const Points turned = mapped.map().points * expansion.alignment->sphere.transpose();
   return {turned.rowwise().normalized()};
+}
+
+/// "velocity" of velocity_X and velocity_0, "stress" of stress_XY; empty of other names.
+std::string stem_of_component(const std::string& name) {
+  const std::size_t line = name.rfind('_');
+  if (line == std::string::npos || line == 0 || line + 1 == name.size()) return {};
+  const bool is_component =
+      name.find_first_not_of("0123456789", line + 1) == std::string::npos ||
+      (name.size() - line <= 3 && name.find_first_not_of("xyzXYZ", line + 1) == std::string::npos);
+  return is_component ? name.substr(0, line) : std::string{};
+}
+
+/// What has the components of a vector, or of a tensor, in the order of the file.
+std::vector<std::string> vectors_of(const MeshFile& file) {
+  std::vector<std::string> stems;
+  std::map<std::string, int> components;
+  for (const Property& property : file.vertex_properties) {
+    const std::string stem = stem_of_component(property.name);
+    if (stem.empty() || !is_floating(property.type)) continue;
+    if (components[stem]++ == 0) stems.push_back(stem);
+  }
+  std::erase_if(stems, [&](const std::string& stem) {
+    const int count = components[stem];
+    return count != 3 && count != 6 && count != 9;
+  });
+  return stems;
+}
+
+bool has_normals(const MeshFile& file) {
+  return file.corner_normals || file.find_vertex_property("nx");
 }
 
 }  // namespace
@@ -126,6 +158,19 @@ MeshFile reconstruction(const MappedMesh& mapped, const HarmonicExpansion& expan
                               std::vector<double>(column.begin(), column.end())});
   }
   return attach_map(std::move(file), turned_map(mapped, expansion), lines_of(mapped, expansion));
+}
+
+std::vector<std::string> reconstruction_losses(const MappedMesh& mapped,
+                                               const HarmonicExpansion& expansion) {
+  const MeshFile& file = mapped.file();
+  std::vector<std::string> losses;
+  if (has_normals(file)) add_loss(losses, "normals, which are those of the surface before");
+  if (file.corner_tangents) add_loss(losses, "tangents, which are those of the surface before");
+  const bool is_turned = expansion.aligned == HarmonicAlignment::SphereAndSurface;
+  if (const auto vectors = vectors_of(file); is_turned && !vectors.empty())
+    losses.push_back("the surface is turned, not what its vertices have: components of " +
+                     enumerated(vectors) + " are along the axes of before");
+  return losses;
 }
 
 void add_reconstruction(PendingFiles& files, const std::string& path, const MappedMesh& mapped,

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "csv_field.h"
 #include "number_text.h"
 #include "records/json_parts.h"
 #include "sphparam/version.h"
@@ -130,7 +131,7 @@ std::string to_csv(const HarmonicExpansion& expansion) {
   std::string text = "l,m";
   const Functions coefficients = expansion.told_coefficients();
   for (const std::string& name : expansion.functions)
-    text += "," + name + (is_geodetic(expansion) ? " (4pi)" : "");
+    text += "," + csv_field(name + (is_geodetic(expansion) ? " (4pi)" : ""));
   text += "\n";
   for (int l = 0; l <= expansion.degree(); ++l) {
     for (int m = -l; m <= l; ++m) {

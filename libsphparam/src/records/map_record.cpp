@@ -198,7 +198,8 @@ std::vector<std::string> shape_warnings(const MeshInspection& inspection) {
   std::vector<std::string> warnings;
   for (const MeshDefect& defect : inspection.defects)
     if (defect.kind == DefectKind::InsideOut)
-      warnings.push_back(defect.message + ": " + defect.hint);
+      warnings.push_back(defect.message +
+                         ", and the map a mirror image of the body: --repair=orientation turns it");
   return warnings;
 }
 

@@ -1,6 +1,7 @@
 #include <charconv>
 #include <numbers>
 
+#include "csv_field.h"
 #include "sphparam/io/fillers.h"
 #include "sphparam/remesh/remesh.h"
 #include "sphparam/sphere/spherical_coordinates.h"
@@ -13,15 +14,6 @@ template <class Number>
 void put(std::string& text, Number number) {
   char digits[32];
   text.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
-}
-
-/// A name as it can stand between commas (RFC 4180).
-std::string quoted_name(const std::string& name) {
-  if (name.find_first_of(",\"\n\r") == std::string::npos) return name;
-  std::string quoted(1, '"');
-  for (const char c : name) quoted.append(c == '"' ? 2 : 1, c);
-  quoted += '"';
-  return quoted;
 }
 
 /// In degrees, in their order.
@@ -39,7 +31,7 @@ std::string sample_table(const MappedMesh& mesh, TableAngles angles, const Table
   const bool in_degrees = angles == TableAngles::Degrees;
   std::string text = in_degrees ? "vertex,lon,lat,x,y,z" : "vertex,theta,phi,x,y,z";
   for (const Property& property : file.vertex_properties)
-    text.append(",").append(quoted_name(property.name));
+    text.append(",").append(csv_field(property.name));
   const bool marked = !holes.in_hole.empty() && !holes.left_out;
   if (marked) text.append(",").append(filler_property);
   text += "\n";

@@ -69,6 +69,12 @@ void align(HarmonicExpansion& expansion, const MappedMesh& mapped, HarmonicAlign
 /// points up, and a volume of FreeSurfer. Normals and tangents go: they were of the other surface.
 MeshFile reconstruction(const MappedMesh& mapped, const HarmonicExpansion& expansion);
 
+/// What of the mesh's file its reconstruction has not, or as it was: normals and tangents, and, of
+/// a surface that is turned, vectors and tensors (three, six or nine numbers of one name), which
+/// are not. For people, a line each.
+std::vector<std::string> reconstruction_losses(const MappedMesh& mapped,
+                                               const HarmonicExpansion& expansion);
+
 /// Adds it, in the format that the name asks for; where that keeps the map, what was written is
 /// read back and proved. Throws: WriteError; UnmeasurableMesh; NotCertifiedError.
 void add_reconstruction(PendingFiles& files, const std::string& path, const MappedMesh& mapped,
