@@ -129,7 +129,9 @@ TEST_CASE("map_record: the input is what was read, and a shape inside out is war
   CHECK(json["input"]["comments"] == Json({"by hand"}));
   CHECK(json["made_anew"] == true);
   REQUIRE(json["warnings"].size() == 2);
-  CHECK_THAT(json["warnings"][0].get<std::string>(), StartsWith("inside out"));
+  CHECK(json["warnings"][0] ==
+        "inside out: the volume is negative, and the map a mirror image of the body: "
+        "--repair=orientation turns it");
   CHECK(json["warnings"][1] == "another");
 }
 
@@ -320,6 +322,9 @@ TEST_CASE("harmonics_record: 4π-normalised coefficients, and SHADR of the radiu
           Approx(factor * orthonormal(i, 3)).margin(1e-15));
   }
   CHECK_THAT(to_csv(expansion), StartsWith("l,m,x (4pi),y (4pi),z (4pi),radius (4pi)\n"));
+  expansion.functions.back() = "a,\"b\"";
+  CHECK_THAT(to_csv(expansion), StartsWith("l,m,x (4pi),y (4pi),z (4pi),\"a,\"\"b\"\" (4pi)\"\n"));
+  expansion.functions.back() = "radius";
   // A point off the centre of a ball: the radius is 1 − a·x to first order, C_10 = −a_z/√3.
   const std::string shadr = to_shadr(expansion);
   std::vector<std::vector<double>> rows;
