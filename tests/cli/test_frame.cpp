@@ -66,6 +66,19 @@ TEST_CASE("map: given poles are reached, and their cost in energy told") {
   CHECK_THAT(ended.err, Contains("vertices 9 and 26 at ±z") && Contains("energy than before"));
 }
 
+TEST_CASE("map: the paper's poles are at ±z where its smoothing has not moved them") {
+  const auto told = [](const char* sweeps) {
+    return sphparam_program({"map", "-", "-o", "-", "--method", "paper", "--repair-map", "--poles",
+                             "0,140", "--sweeps", sweeps},
+                            obj_text(icosphere(3)))
+        .err;
+  };
+  CHECK_THAT(told("0"), Contains("\n  vertices 0 and 140 at ±z\n"));
+  CHECK_THAT(told("3"),
+             Contains("\n  vertices 0 and 140 near ±z, at the ends of the date line\n") &&
+                 Contains("has moved the poles"));
+}
+
 namespace {
 
 /// An animal: longer than high, y up, a head with a nose at −z, a tail at +z; vertices in no order

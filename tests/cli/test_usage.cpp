@@ -55,6 +55,31 @@ TEST_CASE("program: help of no subcommand names the one that was meant") {
   CHECK(ended.code == 2);
   CHECK(ended.out.empty());
   CHECK_THAT(ended.err, Contains("unknown subcommand mpa; did you mean map?"));
+  const Ended of_batch = sphparam_program({"help", "batch", "nosuch"});
+  CHECK(of_batch.code == 2);
+  CHECK(of_batch.out.empty());
+  CHECK_THAT(of_batch.err,
+             StartsWith("sphparam: error: batch has no subcommand nosuch; it has plan, run, "
+                        "status, retry, table, report\n"));
+  const Ended of_map = sphparam_program({"help", "map", "all"});
+  CHECK(of_map.code == 2);
+  CHECK(of_map.out.empty());
+  CHECK_THAT(of_map.err, StartsWith("sphparam: error: map has no subcommand all: sphparam help map "
+                                    "tells all of it\n"));
+}
+
+TEST_CASE("program: an option whose value is empty is no option that is not there") {
+  const Folder folder;
+  const std::string mesh = folder / "ball.obj";
+  write_bytes(mesh, obj_text(icosphere(1)));
+  for (const char* option : {"--range", "--scalar", "--texture", "--from", "--sphere"}) {
+    const Ended ended = sphparam_program({"render", mesh, "-o", folder / "out.png", option, ""});
+    INFO(ended.err);
+    CHECK(ended.code == 2);
+    CHECK_THAT(ended.err, StartsWith("sphparam: error: " + std::string(option) +
+                                     ": its value is empty: give one, or leave the option out"));
+  }
+  CHECK(folder.names() == std::vector<std::string>{"ball.obj"});
 }
 
 TEST_CASE(
@@ -104,7 +129,13 @@ TEST_CASE("program: what a mesh lacks, and what is no word, is told before it is
            {{"export", mesh, "--images", folder / "nowhere", "-o", folder / "out.glb"},
             3,
             "nowhere: No such file"},
-           {{"spharm", mesh, "--scalar", "thicknes"}, 2, "have no property thicknes"}}) {
+           {{"spharm", mesh, "--scalar", "thicknes"}, 2, "have no property thicknes"},
+           {{"remesh", mesh, "--grid", "ico:2", "--transfer", "thicknes", "-o", folder / "out.ply"},
+            2,
+            "--transfer: no property thicknes to transfer; there are position"},
+           {{"match", mesh, mesh, "--features", "sulk,sulk", "-o", folder / "out.ply"},
+            3,
+            "sulk: No such file"}}) {
     const Ended ended = sphparam_program(words);
     INFO(words.front() << ": " << ended.err);
     CHECK(ended.code == code);

@@ -21,6 +21,12 @@ std::string clash_of(const Up& up) try {
   return error.what();
 }
 
+/// Of the value of an option: an empty one, of a variable that is not set, say, would be as if the
+/// option were not there.
+std::string complaint_of_nothing(const std::string& text) {
+  return text.empty() ? "its value is empty: give one, or leave the option out" : "";
+}
+
 }  // namespace
 
 Declaration::Declaration(CLI::App& program, const std::string& name, const std::string& summary)
@@ -45,7 +51,10 @@ Declaration& Declaration::output(std::string& path, const std::string& word,
 
 Declaration& Declaration::text(const std::string& name, std::string& value, const std::string& word,
                                const std::string& about) {
-  return keep(app_->add_option(name, value, about), word, !value.empty());
+  const bool tells_preset = !value.empty();
+  CLI::Option* option = app_->add_option(name, value, about);
+  if (name.starts_with("--")) option->check(CLI::Validator(complaint_of_nothing, ""));
+  return keep(option, word, tells_preset);
 }
 
 Declaration& Declaration::texts(const std::string& name, Words& values, const std::string& word,

@@ -68,22 +68,39 @@ std::optional<LandmarkFile> landmark_file(const MatchArguments& arguments) {
   return LandmarkFile(arguments.landmarks);
 }
 
-void read_features_of(MatchArguments& arguments, const MappedMesh& first,
-                      const MappedMesh& second) {
+void read_features_of(MatchArguments& arguments, const MeshFile& first, const MeshFile& second) {
   if (arguments.features.empty()) return;
   keep_from_outputs(arguments.features);
-  arguments.options.features =
-      read_features(arguments.features, first.file(), second.file(), input_limits());
+  arguments.options.features = read_features(arguments.features, first, second, input_limits());
   arguments.options.features->weight = arguments.feature_weight;
 }
 
-/// Which of the two a refusal is about, which tells what is wrong with a mesh.
-MappedMesh read_side(const char* side, const std::string& path, const std::string& sphere,
-                     const RepairArguments& repair, Session& session) try {
-  return read_mapped(path, sphere, session, repair);
+struct Side {
+  const char* name;
+  std::string path, sphere;
+};
+
+/// Work on one of the two: which of them a refusal is about, that tells what is wrong with a mesh.
+template <class Work>
+auto told_of(const Side& side, const Work& work) try {
+  return work();
 } catch (const MeshRefusal&) {
-  print_error(side + (" (" + display_name(path)) + ") cannot be mapped:");
+  print_error(side.name + (" (" + display_name(side.path)) + ") cannot be mapped:");
   throw;
+}
+
+/// What can be mapped: one that cannot has other vertices than whoever names them thinks.
+MeshSource read_side(const Side& side, const RepairArguments& repair, Session& session) {
+  return told_of(side, [&] {
+    MeshSource source = read_mended(side.path, repair, session);
+    require_mappable(source);
+    return source;
+  });
+}
+
+MappedMesh map_side(const Side& side, MeshSource source, const RepairArguments& repair,
+                    Session& session) {
+  return told_of(side, [&] { return map_source(std::move(source), side.sphere, session, repair); });
 }
 
 Match match(const MatchArguments& arguments, const MappedMesh& first, const MappedMesh& second,
@@ -116,17 +133,21 @@ int run_match(MatchArguments& arguments) {
   const std::optional<LandmarkFile> landmarks = landmark_file(arguments);
   require_there(
       {arguments.first, arguments.second, arguments.first_sphere, arguments.second_sphere});
-  MappedMesh first =
-      read_side("A", arguments.first, arguments.first_sphere, arguments.repair, session);
-  const MappedMesh second =
-      read_side("B", arguments.second, arguments.second_sphere, arguments.repair, session);
+  session.hold_signals();
+  const Side a{"A", arguments.first, arguments.first_sphere},
+      b{"B", arguments.second, arguments.second_sphere};
+  MeshSource first_source = read_side(a, arguments.repair, session),
+             second_source = read_side(b, arguments.repair, session);
+  // What they lack is told before they are mapped.
+  if (landmarks)
+    arguments.options.landmarks =
+        landmarks->pairs(FileNumbers(first_source.file), FileNumbers(second_source.file));
+  read_features_of(arguments, first_source.file, second_source.file);
+  MappedMesh first = map_side(a, std::move(first_source), arguments.repair, session);
+  const MappedMesh second = map_side(b, std::move(second_source), arguments.repair, session);
   tell_hemispheres(arguments, first, second, session);
   if (arguments.mirror) first = mirror_image(first, session.threads());
   arguments.options.search = !landmarks && arguments.features.empty();
-  if (landmarks)
-    arguments.options.landmarks =
-        landmarks->pairs(FileNumbers(first.file()), FileNumbers(second.file()));
-  read_features_of(arguments, first, second);
   tell_absent_values(arguments, second, session);
   const Match found = match(arguments, first, second, session);
   session.warn(found.warnings);

@@ -12,11 +12,13 @@
 #include "commands/sources.h"
 #include "console/places.h"
 #include "number_text.h"
+#include "remesh/wanted_values.h"
 #include "reports/remesh_wording.h"
 #include "reports/told_fillers.h"
 #include "reports/told_losses.h"
 #include "sphparam/gltf/export.h"
 #include "sphparam/io/certified_files.h"
+#include "sphparam/io/fillers.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/vertex_data.h"
@@ -125,8 +127,6 @@ std::vector<LevelOfDetail> make_levels(const MappedMesh& mapped, SphereGrid grid
         "was fitted");
   }
   return levels;
-} catch (const NoSuchProperty& error) {
-  throw UsageMistake("--transfer: " + std::string(error.what()));
 } catch (const UnfittableGrid& error) {
   throw UsageMistake("--subdiv-fit: " + std::string(error.what()));
 }
@@ -277,10 +277,21 @@ void add_images(PendingFiles& files, const RemeshArguments& arguments,
   }
 }
 
+/// Tells what faces have, which rows of vertices have no place for.
+void tell_left_out_of_table(const std::string& table, const MeshFile& made, Console& console) {
+  std::vector<std::string> names;
+  for (const Property& property : made.face_properties)
+    if (property.name != filler_property) names.push_back(property.name);
+  Words losses;
+  if (!names.empty()) add_loss(losses, enumerated(names) + " of faces: rows are of vertices");
+  tell_losses(table, losses, console);
+}
+
 /// Warns of what the directions of a table are not, and of rows that lie in holes.
 std::string table_of(const RemeshArguments& arguments, const MappedMesh& mapped,
                      const Remeshed& made, Session& session) {
   if (arguments.degrees) tell_longitudes(mapped, Convention::Gis, false, std::nullopt, session);
+  tell_left_out_of_table(arguments.csv, made.file(), session.console);
   const TableHoles holes{in_holes(mapped, made.map().points, session.threads()),
                          arguments.holes == FillersInFile::Left};
   if (const auto count = std::count(holes.in_hole.begin(), holes.in_hole.end(), 1); count > 0) {
@@ -310,13 +321,25 @@ MissingValues missing_values(const RemeshRequests& requests) {
   return requests.data_outputs.empty() ? MissingValues::LeftOut : MissingValues::Refused;
 }
 
+/// The mesh with its map; what it lacks is told before it is mapped, which may take minutes.
+MappedMesh read_remeshed(const RemeshArguments& arguments, const RemeshRequests& requests,
+                         Session& session) try {
+  session.hold_signals();
+  MeshSource source = read_mended(arguments.input, arguments.repair, session, arguments.data,
+                                  missing_values(requests));
+  WantedValues(split(arguments.transfer), source.file);
+  return map_source(std::move(source), arguments.sphere, session, arguments.repair,
+                    remeshing_lambda);
+} catch (const NoSuchProperty& error) {
+  throw UsageMistake("--transfer: " + std::string(error.what()));
+}
+
 int run_remesh(RemeshArguments& arguments) {
   Session session(arguments);
   const RemeshRequests requests = check_remesh_arguments(arguments);
   require_there({arguments.input, arguments.sphere, requests.like});
   require_there(requests.areas);
-  MappedMesh mapped = read_mapped(arguments.input, arguments.sphere, session, arguments.repair,
-                                  remeshing_lambda, arguments.data, missing_values(requests));
+  MappedMesh mapped = read_remeshed(arguments, requests, session);
   const int last_data = last_attached(mapped.file());
   if (arguments.subdivision || arguments.lods > 0) require_measurable(mapped.mesh());
   if (arguments.subdivision) tell_counted_fillers(mapped, "what is fitted", session.console);

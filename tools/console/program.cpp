@@ -15,6 +15,7 @@
 #include <exception>
 #include <map>
 #include <new>
+#include <span>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -236,15 +237,32 @@ const CLI::App* subcommand_named(const CLI::App& program, const std::string& nam
   return nullptr;
 }
 
+/// Throws: UsageMistake where the words that help is wanted of are no subcommand, or none of it.
+void require_subcommands(const CLI::App& program, std::span<char* const> words) {
+  const CLI::App* command = &program;
+  std::string typed;
+  for (const char* const word : words) {
+    if (word[0] == '-') return;
+    const CLI::App* const next = subcommand_named(*command, word);
+    const Words known = command_names(*command);
+    if (!next && typed.empty())
+      throw UsageMistake(std::string("unknown subcommand ") + word + did_you_mean(word, known));
+    if (!next)
+      throw UsageMistake(typed.substr(1) + " has no subcommand " + word +
+                         (known.empty() ? ": sphparam help" + typed + " tells all of it"
+                                        : "; it has " + joined(known)));
+    typed += std::string(" ") + word;
+    command = next;
+  }
+}
+
 /// `sphparam FILE` is `sphparam asset FILE`, `sphparam help WORDS` is `sphparam WORDS --help`.
 /// Throws: UsageMistake where help is wanted of no subcommand.
 std::vector<char*> with_subcommand(const CLI::App& program, int argc, char** argv) {
   static char asset[] = "asset", help[] = "--help";
   std::vector<char*> words(argv, argv + argc);
   if (argc > 1 && std::string_view(argv[1]) == "help") {
-    if (argc > 2 && argv[2][0] != '-' && !subcommand_named(program, argv[2]))
-      throw UsageMistake(std::string("unknown subcommand ") + argv[2] +
-                         did_you_mean(argv[2], command_names(program)));
+    require_subcommands(program, std::span(words).subspan(2));
     words.erase(words.begin() + 1);
     words.insert(words.end(), {help, nullptr});
     return words;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "console/places.h"
+#include "embedding/frame/landmarks.h"
 #include "number_text.h"
 #include "reports/told_losses.h"
 #include "reports/told_repairs.h"
@@ -101,6 +102,17 @@ void tell_stages(const MapOutcome& outcome, Console& console) {
   for (const std::string& warning : outcome.result.warnings) console.warning(warning);
 }
 
+namespace {
+
+/// Where the poles are: the paper's smoothing may have moved those that its map was built about.
+std::string place_of_poles(const Parameterization& result, const Poles& poles) {
+  const bool exact = all_exact(pin_residuals(
+      result.map, {{poles.north, Vector3::UnitZ()}, {poles.south, -Vector3::UnitZ()}}));
+  return exact ? "at ±z" : "near ±z, at the ends of the date line";
+}
+
+}  // namespace
+
 void tell_frame(const MapOutcome& outcome, Console& console) {
   const Parameterization& result = outcome.result;
   const bool given = outcome.options.poles || !outcome.options.pins.empty();
@@ -109,14 +121,16 @@ void tell_frame(const MapOutcome& outcome, Console& console) {
   std::string line = "  ";
   if (result.poles) {
     line += "vertices " + std::to_string(numbers.number(result.poles->north)) + " and " +
-            std::to_string(numbers.number(result.poles->south)) + " at ±z";
+            std::to_string(numbers.number(result.poles->south)) + " " +
+            place_of_poles(result, *result.poles);
   }
   if (!outcome.options.pins.empty()) {
     line += (result.poles ? ", " : "") + std::to_string(outcome.options.pins.size()) + " pinned";
   }
   const double percent = 100 * result.pole_cost;
-  line += ": " + short_number(std::abs(percent)) + " % " + (percent < 0 ? "less" : "more") +
-          " energy than before";
+  if (outcome.method != AnyMethod(Method::Paper) || result.made_anew)  // it has none before
+    line += ": " + short_number(std::abs(percent)) + " % " + (percent < 0 ? "less" : "more") +
+            " energy than before";
   given ? console.say(line) : console.detail(line);
 }
 
