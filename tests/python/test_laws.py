@@ -87,6 +87,17 @@ def test_halves_and_whole_numbers_are_coordinates_too():
     assert (made.values["a"] == vertices[:, 0] + 1).all()
 
 
+def test_whole_numbers_of_64_bits_are_labels_too(tmp_path):
+    labels = np.array([-3_000_000_000, 6_000_000_000])[(V[:, 0] > 0).astype(int)]
+    made = sp.map(V, F, values={"id": labels}, quality="draft")
+    assert made.values["id"].dtype == np.int64 and (made.values["id"] == labels).all()
+    assert set(made.remesh("ico:3").values["id"]) == set(labels)
+    made.save(tmp_path / "a.vtp")
+    assert (sp.load(tmp_path / "a.vtp").values["id"] == labels).all()
+    with pytest.raises(ValueError, match="id.*beyond 2⁵³"):
+        sp.map(V, F, values={"id": labels * 10**6 * 10})
+
+
 def test_nothing_that_is_passed_in_is_changed():
     vertices, faces = V.copy(), F.copy()
     vertices.flags.writeable = faces.flags.writeable = True

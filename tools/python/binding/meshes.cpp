@@ -41,6 +41,7 @@ std::unique_ptr<Source> read(const FilePath& path, bool repeated_corners, bool n
 }
 
 ScalarType type_named(const std::string& name) {
+  if (name == ply_name(ScalarType::Int64)) return ScalarType::Int64;  // no file of PLY has it
   ScalarType type;
   if (!parse_ply_name(name, type)) throw py::value_error("no type is called " + name);
   return type;

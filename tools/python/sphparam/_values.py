@@ -35,7 +35,7 @@ _of_the_map = {"sx", "sy", "sz", "theta", "phi", "x", "y", "z", "source_vertex",
 
 
 def _column_type(array: Array, name: str) -> str:
-    """The PLY type that holds an array; whole numbers must fit into 32 bits."""
+    """The type that holds an array, by its name in PLY; whole numbers are kept up to 2⁵³."""
     kind = array.dtype.kind + str(array.dtype.itemsize)
     if kind in ("i8", "u8"):
         least, most = (int(array.min()), int(array.max())) if array.size else (0, 0)
@@ -43,7 +43,9 @@ def _column_type(array: Array, name: str) -> str:
             return "int"
         if 0 <= least and most < 2**32:
             return "uint"
-        raise ValueError(f"{name}: numbers beyond 32 bits, which meshes cannot keep: {least} to {most}")
+        if -(2**53) <= least and most <= 2**53:
+            return "int64"
+        raise ValueError(f"{name}: whole numbers beyond 2⁵³, which meshes cannot keep: {least} to {most}")
     if kind not in _ply_types:
         raise TypeError(f"{name}: numbers of at most 64 bits are needed, not {array.dtype}")
     return _ply_types[kind]
