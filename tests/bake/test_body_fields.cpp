@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "bake/field_registry.h"
+#include "image/image_codec.h"
 #include "rays/ray_scene.h"
 #include "scenes.h"
 #include "sphparam/bake/bake.h"
@@ -393,6 +394,46 @@ TEST_CASE("sidecars: coordinates, scale, offset and unit beside each image, or n
   const std::string normal = text_of(folder / "n.png.aux.xml");
   CHECK(std::stod(element(normal, "Offset")) == -1);
   CHECK_THAT(normal, Contains("<PAMRasterBand band=\"3\">"));
+}
+
+TEST_CASE("sidecars: where kept holes are, floats for geographic programs are no numbers") {
+  const Folder folder;
+  BakeSettings settings;
+  settings.width = 64;
+  settings.convention = Convention::Gis;
+  settings.depth = SampleType::Float;
+  settings.fields.body = body_of("Vesta", 1000);
+  MeshFile file;
+  file.mesh = star_shaped(0, 4);
+  FillerMarks fillers(static_cast<std::size_t>(file.mesh.face_count()), 0);
+  std::fill_n(fillers.begin(), 400, 1);
+  mark_fillers(file, fillers);
+  SphereMap map{file.mesh.positions.rowwise().normalized()};
+  const MappedMesh holed({.file = std::move(file), .map = std::move(map), .name = "holed"});
+  const auto values = [&](const char* name) {
+    bake(holed, {{"radius", folder / name}}, settings);
+    return read_image(folder / name);
+  };
+  const Image exr = values("r.exr"), tif = values("r.tif");
+  REQUIRE(tif.channels == 2);
+  std::ptrdiff_t holes = 0;
+  for (std::size_t i = 0; i < tif.pixels.size(); i += 2) {
+    const bool in_hole = exr.pixels[i + 1] == 0;
+    holes += in_hole;
+    CHECK(tif.pixels[i + 1] == exr.pixels[i + 1]);
+    CHECK((in_hole ? std::isnan(tif.pixels[i]) : tif.pixels[i] == exr.pixels[i]));
+  }
+  CHECK(holes == 86);
+  const std::string bands = text_of(folder / "r.tif.aux.xml");
+  const std::string alpha = bands.substr(bands.find("band=\"2\""));
+  CHECK(element(bands, "NoDataValue") == "nan");
+  CHECK_THAT(alpha, !Contains("NoDataValue"));
+  settings.depth.reset();
+  values("i.tif");
+  CHECK_THAT(text_of(folder / "i.tif.aux.xml"), !Contains("NoDataValue"));
+  settings.depth = SampleType::Float;
+  settings.fields.body.reset();
+  CHECK(values("plain.tif").pixels == exr.pixels);
 }
 
 TEST_CASE("sidecars: lonlat has two bands in degrees, and one of nothing") {

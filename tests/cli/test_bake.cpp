@@ -495,10 +495,12 @@ TEST_CASE(
       {{"--body", "vespa"}, "did you mean vesta?"},
       {{"--body", "0"}, "above 0"},
       {{"--body", "1,2"}, "three semi-axes"},
-      {{"--body", "vesta", "--convention", "three"}, "in the convention gis"},
+      {{"--body", "vesta", "--convention", "three"},
+       "`gdalwarp -te 0 -90 360 90 IMAGE.tif OUT.tif`"},
       {{"--body", "vesta", "--unit", "mile"}, "--unit"},
       {{"--body", wkt, "--west"}, "--west contradicts --body"},
       {{"--unit", "km"}, "--unit is for --body only"},
+      {{"--west"}, "--west is for --body, and for the maps lon and lonlat"},
       {{"--centre", "1,2"}, "--centre"},
       {{"--map", "elevation"}, "above which body?"},
   };

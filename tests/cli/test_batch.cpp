@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <csignal>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -157,6 +158,22 @@ TEST_CASE("batch: a plan never changes, tasks that wait run what they were plann
   const Ended changed = shapes.batch("run", {"--plan", first});
   CHECK(changed.code == 3);
   CHECK_THAT(changed.err, Contains("it was changed"));
+}
+
+TEST_CASE("batch: the script of a batch that was moved says what mends it, which does") {
+  const Shapes shapes(1);
+  shapes.plan({"map"}, "1");
+  const std::string moved = shapes.folder / "moved", script = moved + "/array.sbatch";
+  fs::rename(shapes.work, moved);
+  const std::string said = shapes.folder / "said", command = "SLURM_ARRAY_TASK_ID=1 sh ";
+  CHECK(std::system((command + script + " 2>" + said).c_str()) != 0);
+  std::string advice = bytes_of(said);
+  CHECK_THAT(advice, Contains("its folder is not there; if it was moved to NEW, `sed -i"));
+  for (std::size_t at; (at = advice.find("NEW")) != std::string::npos;)
+    advice.replace(at, 3, "moved");
+  CHECK(type_advice(advice.substr(0, advice.find("Try")), shapes.folder / ".") == 2);
+  CHECK(fs::exists(moved + "/results/ball0/ball0.sph.ply"));
+  CHECK_THAT(bytes_of(script), Contains("\"moved/logs/") && !Contains(shapes.work));
 }
 
 TEST_CASE("batch: failures are tried again when somebody says so, and attempts are counted") {

@@ -147,6 +147,10 @@ bool contains(const Words& words, const std::string& word) {
   return std::ranges::find(words, word) != words.end();
 }
 
+bool shows_longitude(const BakeArguments& arguments) {
+  return contains(arguments.maps, "lon") || contains(arguments.maps, "lonlat");
+}
+
 /// What is to be baked, with all channels where that word stands; nothing twice for it.
 Words fields_of(const BakeArguments& arguments) {
   if (arguments.maps.empty()) return {"basecolor"};
@@ -264,6 +268,8 @@ void settle_body(BakeArguments& arguments) {
   BakeSettings& settings = arguments.settings;
   if (arguments.body.empty()) {
     if (arguments.given("--unit")) throw UsageMistake("--unit is for --body only");
+    if (settings.fields.positive_west && !shows_longitude(arguments))
+      throw UsageMistake("--west is for --body, and for the maps lon and lonlat");
     return;
   }
   try {
@@ -278,6 +284,10 @@ void settle_body(BakeArguments& arguments) {
   }
   body.positive_west |= settings.fields.positive_west;
   if (!arguments.given("--convention")) settings.convention = Convention::Gis;
+  if (settings.convention != Convention::Gis)
+    throw UsageMistake(
+        "--convention: images of a --body go from -180 to 180 degrees, as gis has it: leave it "
+        "out; `gdalwarp -te 0 -90 360 90 IMAGE.tif OUT.tif` makes 0 to 360 of that");
   if (!arguments.given("--interp")) settings.interpolation = Interpolation::Sphere;
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "bake/image_level.h"
 #include "image/integer_sample.h"
@@ -107,6 +108,18 @@ void add_origin(const SurfaceField& field, std::vector<float>& values) {
                                    field.origin_of(static_cast<int>(i % channels)));
 }
 
+namespace {
+
+/// Requires: coverage.
+void remove_holes(const SurfaceField& field, std::vector<float>& values) {
+  const int channels = field.channels;
+  for (auto texel = values.begin(); texel != values.end(); texel += channels)
+    if (texel[channels - 1] == 0)
+      std::fill_n(texel, channels - 1, std::numeric_limits<float>::quiet_NaN());
+}
+
+}  // namespace
+
 BakedFile::BakedFile(const SurfaceField& field, const BakedFileOptions& options, ImagePlace file)
     : field_(field), options_(options), writer_(file_options(field, options), std::move(file)) {
   field_.evaluate = {};
@@ -135,12 +148,11 @@ void BakedFile::encode(const float* values, int rows) {
 }
 
 void BakedFile::encode_floats(const float* values, size_t count, int rows) {
-  std::vector<float> moved;
-  if (field_.is_far()) {
-    moved.assign(values, values + count);
-    add_origin(field_, moved);
-    values = moved.data();
-  }
+  std::vector<float> changed;
+  if (field_.is_far() || options_.no_data) changed.assign(values, values + count);
+  if (field_.is_far()) add_origin(field_, changed);
+  if (options_.no_data) remove_holes(field_, changed);
+  if (!changed.empty()) values = changed.data();
   if (options_.sample_type == SampleType::Half) require_halves(values, count);
   writer_.write_rows(values, rows);
 }

@@ -18,7 +18,9 @@ struct BakedFileOptions {
   ImageFormat format = ImageFormat::Png;
   SampleType sample_type = SampleType::Uint8;
   Convention convention = Convention::Sphparam;
-  bool tiles = false;                                              // EXR with all levels
+  bool tiles = false;    // EXR with all levels
+  bool no_data = false;  // floats with coverage 0 become no numbers: geographic programs take alpha
+                         // as a mask of integers alone
   std::vector<std::pair<std::string, std::string>> metadata = {};  // besides its own
 };
 

@@ -130,6 +130,9 @@ PlannedImage plan_image(const BakeRequest& request, BakeScene& scene,
   if (!image.drawn) image.field = make_covered_field(request.field, scene);
   image.file.sample_type = depth_of(settings, image.file.format, image.field.kind,
                                     has_numbers(image.field), image.field.eight_bits);
+  image.file.no_data = settings.fields.body && has_sidecar(request.path) &&
+                       !is_integer(image.file.sample_type) && image.field.has_coverage &&
+                       image.field.kind != FieldKind::Colour;
   require_channels(image);
   require_exact_labels(image);
   spread_labels(image);

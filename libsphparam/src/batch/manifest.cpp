@@ -97,6 +97,16 @@ std::string all_of(const std::string& path) {
   return std::string(FileBytes(path, std::numeric_limits<std::uint64_t>::max()).view());
 }
 
+/// Scripts of a batch that was moved still name the folder where it was.
+void require_there(const std::string& manifest, const std::string& folder) {
+  std::error_code hidden;
+  if (fs::exists(folder, hidden)) return;  // a plan that is missing in it is told as any file
+  throw ReadError(manifest,
+                  "its folder is not there; if it was moved to NEW, `sed -i \"s|" + folder +
+                      "|NEW|\" NEW/array.sbatch` mends the script, and `sphparam batch run NEW` "
+                      "needs none");
+}
+
 void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
@@ -159,7 +169,9 @@ BatchPlan load_plan(const std::string& folder, const std::string& name) {
     wanted = all_of(latest);
     while (wanted.ends_with('\n')) wanted.pop_back();
   }
-  const std::string path = manifest_path(folder, wanted), text = all_of(path);
+  const std::string path = manifest_path(folder, wanted);
+  require_there(path, folder);
+  const std::string text = all_of(path);
   if (content_hash(text).substr(0, 16) != wanted)
     throw ReadError(path, "its bytes are not those of plan " + wanted + ": it was changed");
   BatchPlan plan = parse_manifest(text, path);

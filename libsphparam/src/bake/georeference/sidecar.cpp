@@ -93,14 +93,16 @@ std::string band_name(const SurfaceField& field, int band) {
   return field.name + " " + (colour ? "RGBA"[band] : "xyzw"[band]);
 }
 
-std::string band_of(const SurfaceField& field, int band, SampleType type) {
+std::string band_of(const PlannedImage& image, int band) {
+  const SurfaceField& field = image.field;
   std::string xml = "  <PAMRasterBand band=\"" + std::to_string(band + 1) + "\">\n";
   if (band >= field.proper_channels()) {
     xml += element("Description", "surface") + element("ColorInterp", "Alpha");
   } else {
     xml += element("Description", band_name(field, band));
     if (!field.unit.empty() && !is_nothing(field, band)) xml += element("UnitType", field.unit);
-    xml += scaling(field, band, type);
+    xml += scaling(field, band, image.file.sample_type);
+    if (image.file.no_data) xml += element("NoDataValue", "nan");
   }
   return xml + "  </PAMRasterBand>\n";
 }
@@ -140,8 +142,7 @@ std::string sidecar_of(const PlannedImage& image, const BakeSettings& settings,
   xml += "  <GeoTransform>" + std::string(west ? "180" : "-180") + ", " +
          shortest(west ? -texel : texel) + ", 0, 90, 0, " + shortest(-texel) + "</GeoTransform>\n";
   xml += "  <Metadata>\n    <MDI key=\"AREA_OR_POINT\">Area</MDI>\n  </Metadata>\n";
-  for (int band = 0; band < field.channels; ++band)
-    xml += band_of(field, band, image.file.sample_type);
+  for (int band = 0; band < field.channels; ++band) xml += band_of(image, band);
   return xml + "</PAMDataset>\n";
 }
 
