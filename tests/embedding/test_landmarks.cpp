@@ -7,6 +7,7 @@
 #include "folded_maps.h"
 #include "sphparam/parameterize.h"
 #include "sphparam/sphere/certificate.h"
+#include "sphparam/sphere/orientation.h"
 #include "sphparam/sphere/spherical_coordinates.h"
 #include "support/test_meshes.h"
 
@@ -99,6 +100,54 @@ TEST_CASE("place_landmarks: neighbours asked to be opposite stop on the way, not
       place_landmarks(topology, measure_source(mesh), {mesh.positions}, pins);
   CHECK_FALSE(placed.exact());
   CHECK(placed.residuals == pin_residuals(placed.map, pins));
+  CHECK(certify(topology, placed.map).bijective());
+}
+
+TEST_CASE("place_landmarks: no more rounds are told than were made") {
+  const TriangleMesh mesh = icosphere(2);
+  const Topology topology(mesh);
+  const Vertex v = 20, w = topology.target(topology.outgoing(20));
+  const std::vector<Pin> pins{{v, Vector3::UnitZ()}, {w, -Vector3::UnitZ()}};
+  for (const int most : {0, 3}) {
+    const LandmarkPlacement placed = place_landmarks(topology, measure_source(mesh),
+                                                     {mesh.positions}, pins, {.most_rounds = most});
+    CHECK_FALSE(placed.exact());
+    CHECK(placed.rounds == most);
+  }
+}
+
+TEST_CASE("place_landmarks: a pin that rounding keeps from its point stays beside it") {
+  // Two units in the last place from each other: (to − (from·to) from) is 0, their product is not.
+  const Vector3 from(-0x1.066695967123fp-2, -0x1.00b96cd0e44e8p-1, -0x1.a71c77da02a1fp-1);
+  const Vector3 to(-0x1.066695967123dp-2, -0x1.00b96cd0e44e6p-1, -0x1.a71c77da02a1dp-1);
+  REQUIRE((to - from.dot(to) * from).norm() == 0);
+  REQUIRE(from.cross(to).norm() > 0);
+  // On the side ab of a triangle abc whose other corner is d: the vertex v is inside it at `from`
+  // and outside at `to`.
+  Vector3 a = Vector3::Zero(), b = a;
+  const Vector3 middle = Vector3(-1, -1, -1).normalized();
+  const Vector3 aside = from.cross(middle).normalized();
+  for (int i = 1; i < 100'000 && (orientation(from, a, b) <= 0 || orientation(to, a, b) > 0); ++i) {
+    const double angle = 1 + 1e-5 * i;
+    a = (std::cos(angle) * from + std::sin(angle) * aside).normalized();
+    b = (std::cos(angle) * from - std::sin(angle) * aside).normalized();
+  }
+  REQUIRE(orientation(from, a, b) > 0);
+  REQUIRE(orientation(to, a, b) <= 0);
+  TriangleMesh mesh;
+  mesh.triangles.resize(6, 3);
+  mesh.triangles << 0, 1, 2, 0, 2, 3, 0, 3, 1, 2, 1, 4, 3, 2, 4, 1, 3, 4;
+  mesh.positions.resize(5, 3);
+  const Vector3 c = (middle + 0.8 * (middle - from.dot(middle) * from).normalized()).normalized();
+  const Vector3 d = -(a + b + c).normalized();
+  mesh.positions << from.transpose(), a.transpose(), b.transpose(), c.transpose(), d.transpose();
+  const Topology topology(mesh);
+  const SphereMap map{mesh.positions};
+  REQUIRE(certify(topology, map).bijective());
+  const LandmarkPlacement placed =
+      place_landmarks(topology, measure_source(mesh), map, {{4, d}, {0, to}}, {.most_rounds = 2});
+  CHECK(placed.map.points.allFinite());
+  CHECK(placed.residuals[1] < 1e-15);
   CHECK(certify(topology, placed.map).bijective());
 }
 

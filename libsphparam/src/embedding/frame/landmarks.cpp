@@ -37,12 +37,13 @@ constexpr double right_turn = -1.2;      // radians; less than π/2: some of the
 constexpr double opposite = 1e-12;       // sine of an angle below which a great circle is undefined
 constexpr std::int64_t grain = 256;
 
-/// The tangent vector at `from` whose great circle reaches `to` after its length.
+/// The tangent vector at `from` whose great circle reaches `to` after its length; 0 where they are
+/// nearer to each other than rounding can tell.
 Vector3 way(const Vector3& from, const Vector3& to) {
   const Vector3 side = to - from.dot(to) * from;
   const double sine = side.norm(), angle = angle_between(from, to);
-  if (angle == 0) return Vector3::Zero();
   if (sine < opposite && angle > 1) return angle * from.unitOrthogonal();  // any will do
+  if (angle == 0 || sine == 0) return Vector3::Zero();
   return angle / sine * side;
 }
 
@@ -93,7 +94,8 @@ class Traveller {
       return k > patience && history[k - 1] > (1 - least_progress) * history[k - 1 - patience];
     };
     while (!result_.exact()) {
-      if (stalled() || result_.rounds++ == options_.most_rounds) return false;
+      if (stalled() || result_.rounds == options_.most_rounds) return false;
+      ++result_.rounds;
       if (!flow(ways(0))) creep();
       snap();
       relax_with_pins_held(options_.sweeps);

@@ -43,8 +43,8 @@ struct LandmarkPlacement {
 /// wrong cyclic order round a short ring) the pins stop on their way: the residuals tell how far
 /// from their points, the map is valid all the same. Requires: a bijective map.
 /// Ensures: no triangle folds; same bits for any number of threads.
-/// Throws: std::invalid_argument for pins that are no vertices, twice the same, or at points that
-///         are not of unit length to 1e-6, and for options outside of their domain; Cancelled.
+/// Throws: std::invalid_argument for pins that are no vertices, twice the same, or at points whose
+///         squared length is not 1 to 1e-6, and for options outside of their domain; Cancelled.
 /// Cost: a round takes `sweeps` of relaxation and O(#V·#pins + #pins³): meant for coarse meshes,
 /// see
 ///       ProgressiveOptions::pins, and for few rounds on others.
