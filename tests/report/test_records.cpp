@@ -373,7 +373,10 @@ TEST_CASE("bake_record: images, and what they are for") {
   const Json json = Json::parse(to_json(record));
   CHECK(keys_of(json) ==
         "version,source,for,for_distance,width,height,samples,convention,refine_poles,images,"
-        "seconds");
+        "warnings,seconds");
+  CHECK(json["warnings"] == Json::array());
+  baked.warnings = {"in another unit"};
+  CHECK(Json::parse(to_json(record))["warnings"] == Json({"in another unit"}));
   settings.fields.body = body_of("Vesta", 1000);
   baked.coordinate_system = "Vesta (2015) - Sphere / Ocentric";
   const Json of_body = Json::parse(to_json(record))["body"];
@@ -398,6 +401,9 @@ TEST_CASE("bake_record: images, and what they are for") {
   baked.images[0].beyond = std::numeric_limits<double>::quiet_NaN();  // not counted
   CHECK_FALSE(Json::parse(to_json(record))["images"][0].contains("beyond"));
   CHECK(line_of(baked.images[0], settings) == "ball.ply: ao, 64 × 32 uint8 → ao.png");
+  baked.images[0].sidecar = "out/ao.png.aux.xml";
+  CHECK(line_of(baked.images[0], settings) ==
+        "ball.ply: ao, 64 × 32 uint8 → ao.png, ao.png.aux.xml");
 }
 
 TEST_CASE("bake_record: a mesh that lies on the surface baked from has no shares to tell") {

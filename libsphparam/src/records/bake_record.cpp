@@ -82,6 +82,7 @@ std::string to_json(const BakeRecord& record) {
       {"convention", info_of(settings.convention).name},
       {"refine_poles", settings.refine_poles},
       {"images", images_json(record.baked.images)},
+      {"warnings", record.baked.warnings},
       {"seconds", record.seconds}};
   if (record.baked.projection) json["from"] = projection_json(record);
   if (settings.fields.body) json["body"] = body_json(*settings.fields.body, record.baked);
@@ -102,8 +103,8 @@ std::string line_of(const ProjectionShares& shares, const BakeSettings& settings
 std::string line_of(const BakedImage& image, const BakeSettings& settings) {
   return settings.source_name + ": " + image.field + ", " + std::to_string(settings.width) + " × " +
          std::to_string(settings.width / 2) + " " + name_of(image.sample_type) + " → " +
-         output_name(image.path) + (image.sidecar.empty() ? "" : ", " + image.sidecar) +
-         beyond_words(image);
+         output_name(image.path) +
+         (image.sidecar.empty() ? "" : ", " + output_name(image.sidecar)) + beyond_words(image);
 }
 
 }  // namespace sphparam
