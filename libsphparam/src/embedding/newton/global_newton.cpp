@@ -24,8 +24,8 @@ namespace sphparam {
 namespace {
 
 constexpr std::int64_t vertex_grain = 512;
-constexpr int least_parallel_vertices = 1024;  // below it waking other threads costs more
-constexpr int least_trimmed_vertices = 4096;   // below it freed memory is not worth a system call
+constexpr int least_parallel_vertices = 1024;    // below it waking other threads costs more
+constexpr int least_trimmed_vertices = 1 << 18;  // below it that frees little, and costs a tenth
 constexpr int most_iterations = 60;
 constexpr double longest_step = 0.7;  // radians, of any vertex
 constexpr double sufficient_decrease = 1e-4;
