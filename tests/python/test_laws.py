@@ -476,15 +476,17 @@ def test_a_program_may_end_while_a_left_call_runs():
     assert (done.stdout, done.returncode) == ("heard\n", 0), done.stderr
 
 
-def test_a_program_may_end_while_a_daemon_thread_maps():
+@pytest.mark.parametrize("use", ["sp.map(*shapes.potato(7), quality='best')", "sp.map(mesh, quality='draft').vertices"])
+def test_a_program_may_end_while_a_daemon_thread_maps(use):
     code = (
         "import sys, threading, time\n"
         f"sys.path.insert(0, {os.path.dirname(__file__)!r})\n"
         "import numpy, shapes, sphparam as sp\n"
+        "mesh = shapes.potato(4)\n"
         "def work():\n"
         "    while True:\n"
         "        try:\n"
-        "            sp.map(*shapes.potato(7), quality='best')\n"
+        f"            {use}\n"
         "        except sp.Cancelled:\n"
         "            print('cancelled', flush=True)\n"
         "            time.sleep(0.01)\n"

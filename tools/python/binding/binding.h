@@ -2,6 +2,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include <atomic>
 #include <exception>
 #include <memory>
 #include <mutex>
@@ -67,8 +68,9 @@ class Mapped {
   Mapped(MeshSource source, Topology topology, Provenance provenance, Parameterization made,
          Making making, int threads);
 
-  /// Threads of Python let go of its lock while the mesh is made. That is never left half done, for
-  /// what it is made of is there once: who calls for a mesh that could not be made hears why again.
+  /// In threads of Python it is made by a call, as all that takes a while. It is never left half
+  /// made, for what it is made of is there once: who wants a mesh that could not be made hears why
+  /// again.
   const MappedMesh& mesh() const;
   const SphereMap& map() const;
   const Certificate& certificate() const;
@@ -84,6 +86,7 @@ class Mapped {
     std::optional<MappedMesh::Parts> parts = {};  // until the mesh is made
     int threads = 0;
     std::once_flag is_made = {};
+    std::atomic<bool> was_made = false;  // or it failed
     std::optional<MappedMesh> mesh = {};
     std::exception_ptr failure = {};  // or why there is none
     std::optional<Parameterization> made = {};

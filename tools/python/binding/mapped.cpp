@@ -44,13 +44,19 @@ void Mapped::make_mesh() const {
     state_->failure = std::current_exception();
   }
   state_->parts.reset();
+  state_->was_made = true;
 }
 
 const MappedMesh& Mapped::mesh() const {
   if (!state_->made) return *state_->mesh;
-  std::optional<py::gil_scoped_release> unlocked;
-  if (PyGILState_GetThisThreadState()) unlocked.emplace();  // threads of the library have no lock
-  std::call_once(state_->is_made, [this] { make_mesh(); });
+  const auto make_once = [mapped = *this](const Progress&) {
+    std::call_once(mapped.state_->is_made, [&] { mapped.make_mesh(); });
+    return true;
+  };
+  const bool is_of_python = PyGILState_GetThisThreadState();  // and no thread of the library
+  if (!state_->was_made) {
+    is_of_python ? call(py::none(), make_once) : make_once({});
+  }
   if (state_->failure) std::rethrow_exception(state_->failure);
   return *state_->mesh;
 }
