@@ -1,7 +1,12 @@
 #include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <tuple>
 #include <utility>
 
 #include "sphparam/gltf/export.h"
+#include "sphparam/io/safe_file.h"
 #include "support/place.h"
 #include "support/test_meshes.h"
 
@@ -10,6 +15,11 @@ namespace sphparam::tests {
 namespace {
 
 const ExportOptions small{.look = {.image_width = 64}};
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
 
 MappedMesh ball(const std::string& name) {
   MeshFile file;
@@ -36,6 +46,72 @@ TEST_CASE("asset files: a textured mesh without an image is refused") {
     CHECK_THROWS_AS(add_textured_mesh(files, place / name, ball("ball.obj"), {}, small),
                     std::invalid_argument);
   }
+}
+
+TEST_CASE("asset files: images and buffers that no export wrote are never replaced") {
+  const MappedMesh mapped = ball("ball.obj");
+  const auto written_to = [&](const std::string& path) {
+    path.ends_with(".gltf") ? write_asset(path, make_asset(mapped, small))
+                            : void(write_textured_mesh(path, mapped, small));
+  };
+  for (const auto& [name, beside, word] : {std::tuple("a.gltf", "a_checker.png", "image"),
+                                           {"a.gltf", "a.bin", "buffer"},
+                                           {"a.ply", "a_checker.png", "image"},
+                                           {"a.obj", "a_checker.png", "image"}}) {
+    INFO(name << " " << beside);
+    const Place place;
+    const std::string path = place / name, other = place / beside,
+                      free =
+                          place / ("a_sphparam" + std::filesystem::path(name).extension().string());
+    write_file(other, "an artist's");
+    CHECK_THROWS_WITH(written_to(path), other + ": is there, and is no " + word +
+                                            " of an export: -o " + free + " leaves it as it is");
+    CHECK(bytes_of(other) == "an artist's");
+    CHECK(!std::filesystem::exists(path));
+    std::filesystem::remove(other);
+    for (int i = 0; i < 2; ++i) written_to(path);  // its own are
+    std::filesystem::remove(path);                 // and belong to nobody without it
+    if (path.ends_with(".obj")) std::filesystem::remove(place / "a.mtl");
+    CHECK_NOTHROW(written_to(path));  // the same bytes are no loss
+    std::filesystem::remove(path);
+    if (path.ends_with(".obj")) std::filesystem::remove(place / "a.mtl");
+    write_file(other, bytes_of(other) + "!");
+    CHECK_THROWS_AS(written_to(path), WriteError);
+  }
+}
+
+TEST_CASE("asset files: an image is shared by exports of one name, not with files of strangers") {
+  const MappedMesh mapped = ball("ball.obj");
+  const Place place;
+  write_asset(place / "a.gltf", make_asset(mapped, small));
+  CHECK_NOTHROW(write_textured_mesh(place / "a.ply", mapped, small));
+  std::filesystem::remove(place / "a.gltf");
+  CHECK_NOTHROW(write_textured_mesh(place / "a.obj", mapped, small));
+  std::filesystem::remove(place / "a.ply");
+  std::filesystem::remove(place / "a.mtl");
+  write_file(place / "a_checker.png", "an artist's");
+  write_file(place / "a.gltf",
+             R"({"asset": {"generator": "a stranger"}, "images": [{"uri": "a_checker.png"}]})");
+  CHECK_THROWS_AS(write_textured_mesh(place / "a.ply", mapped, small), WriteError);
+  CHECK_THROWS_AS(write_asset(place / "a.gltf", make_asset(mapped, small)), WriteError);
+  CHECK_NOTHROW(write_asset(place / "a.gltf", make_asset(mapped, small),
+                            {.container = GltfContainer::Embedded}));
+}
+
+TEST_CASE(
+    "asset files: names that a line of text cannot hold are refused, where they stand in one") {
+  const MappedMesh mapped = ball("ball.obj");
+  const Place place;
+  for (const std::string name : {"w\nv 9 9 9\n", " lead", "a\tb", "a\rb", "a\x7F"}) {
+    INFO(name);
+    for (const char* kind : {".obj", ".ply"}) {
+      CHECK_THROWS_AS(require_export_place(place / (name + kind)), WriteError);
+      CHECK_THROWS_AS(write_textured_mesh(place / (name + kind), mapped, small), WriteError);
+    }
+    CHECK(place.names().empty());
+    CHECK_NOTHROW(require_export_place(place / (name + ".gltf")));
+  }
+  CHECK_NOTHROW(require_export_place(place / "two words .obj"));
 }
 
 }  // namespace sphparam::tests

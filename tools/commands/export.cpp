@@ -76,7 +76,8 @@ void check_first_places(const ExportArguments& arguments) {
     outputs.emplace_back("-o", (path.parent_path() / (path.stem().string() + more)).string());
   }
   check_places(outputs);
-  if (extension_of(arguments.output) == ".obj") require_own_library(arguments.output);
+  for (int level = 0; level <= files && !arguments.embedded; ++level)
+    require_export_place(level_path(arguments.output, level));
 }
 
 Look look_of(const MappedMesh& mapped, const ExportOptions& options) try {
@@ -113,8 +114,9 @@ class Exporter {
   Words sizes() const {
     Words told = {"  " + words_of(record_.outputs, image_bytes_)};
     if (!record_.charts.empty())
-      told.push_back("  cut as its chart: " + counted(record_.charts.front().triangles, "triangle") +
-                     ", " + counted(record_.charts.front().vertices, "vertex", "vertices"));
+      told.push_back(
+          "  cut as its chart: " + counted(record_.charts.front().triangles, "triangle") + ", " +
+          counted(record_.charts.front().vertices, "vertex", "vertices"));
     if (options_.look.textures != TextureFormat::Given)
       told.push_back("  " + words_of(record_.textures));
     for (const std::string& line : level_lines(record_)) told.push_back("  " + line);

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "gltf/compact_order.h"
 #include "gltf/export_domain.h"
@@ -14,12 +14,13 @@
 #include "gltf/fillers_left_out.h"
 #include "gltf/images/image_kind.h"
 #include "gltf/level.h"
+#include "gltf/set_apart.h"
+#include "gltf/side_files.h"
 #include "gltf/stored_chart.h"
 #include "gltf/textured_mesh.h"
 #include "gltf/written_check.h"
 #include "io/attributes/finish_terms.h"
 #include "io/attributes/remarks.h"
-#include "io/shell_word.h"
 #include "number_text.h"
 #include "sphparam/errors.h"
 #include "sphparam/gltf/export.h"
@@ -35,12 +36,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string stem_of_path(const std::string& path) { return fs::path(path).stem().string(); }
-
-std::string beside(const std::string& path, const std::string& name) {
-  return (fs::path(path).parent_path() / name).string();
-}
-
 /// What the path says, and the asset.
 GltfOptions resolved(GltfOptions options, const std::string& path, const Asset& asset) {
   const std::string extension = is_stream(path) ? ".glb" : extension_of(path);
@@ -51,16 +46,15 @@ GltfOptions resolved(GltfOptions options, const std::string& path, const Asset& 
   } else if (options.container == GltfContainer::Binary) {
     options.container = GltfContainer::Separate;
   }
-  options.stem = stem_of_path(path);
+  options.stem = stem_of_export(path);
   options.quantise = options.quantise || asset.quantised;
   return options;
 }
 
 std::string image_file(const std::string& path, const AssetImage& image) {
-  return beside(path, stem_of_path(path) + "_" + image.name + image_kind(image.bytes).extension);
+  return path_beside(path,
+                     stem_of_export(path) + "_" + image.name + image_kind(image.bytes).extension);
 }
-
-std::string library_of(const std::string& obj) { return beside(obj, stem_of_path(obj) + ".mtl"); }
 
 bool is_obj(const std::string& path) {
   const std::string extension = extension_of(path);
@@ -110,12 +104,22 @@ void require_quantisable(const std::string& path, const Asset& asset, const Gltf
                           "ExportOptions::quantise says so");
 }
 
-/// Files added one after the other, with their sizes.
+/// What changes for the way it is stored; nothing: nothing does.
+std::optional<Asset> as_stored(const Asset& given, const GltfOptions& options) {
+  if (!options.compress && !options.quantise) return std::nullopt;
+  Asset asset = given;
+  for (Surface& level : asset.levels)
+    if (options.quantise) set_apart(level.positions);
+  return options.compress ? in_compact_order(std::move(asset)) : std::move(asset);
+}
+
+/// Files added one after the other, with their sizes: the one named first, and what is beside it.
 class Adder {
  public:
-  explicit Adder(PendingFiles& files) : files_(files) {}
+  Adder(PendingFiles& files, std::string owner) : files_(files), owner_(std::move(owner)) {}
 
   void add(const std::string& path, std::string bytes, const BytesCheck& check = {}) {
+    if (path != owner_) require_own_file(owner_, path, bytes);
     written_.emplace_back(path, bytes.size());
     files_.add(path, std::move(bytes), check);
   }
@@ -123,6 +127,7 @@ class Adder {
 
  private:
   PendingFiles& files_;
+  std::string owner_;
   WrittenFiles written_;
 };
 
@@ -151,7 +156,7 @@ std::vector<std::string> asset_files(const std::string& path, const Asset& asset
   const GltfOptions options = resolved(given, path, asset);
   std::vector<std::string> names = {path};
   if (options.container != GltfContainer::Separate) return names;
-  names.push_back(beside(path, options.stem + ".bin"));
+  names.push_back(path_beside(path, options.stem + ".bin"));
   if (options.compress) return names;  // images are in the buffer then
   for (const AssetImage& image : asset.images) names.push_back(image_file(path, image));
   return names;
@@ -161,19 +166,18 @@ WrittenFiles add_asset(PendingFiles& files, const std::string& path, const Asset
                        const GltfOptions& given) {
   const GltfOptions options = resolved(given, path, given_asset);
   require_quantisable(path, given_asset, options);
-  const std::optional<Asset> ordered =
-      options.compress ? std::optional(in_compact_order(given_asset)) : std::nullopt;
-  const Asset& asset = ordered ? *ordered : given_asset;
+  const std::optional<Asset> changed = as_stored(given_asset, options);
+  const Asset& asset = changed ? *changed : given_asset;
   const bool is_binary = options.container == GltfContainer::Binary;
   const auto check = [&](std::string_view glb) {
     check_written(glb, output_name(path), asset, options);
   };
   GltfFiles made = write_gltf(asset, options);
   if (!is_binary) check(glb_bytes(asset, options));
-  Adder adder(files);
+  Adder adder(files, path);
   for (auto& [name, bytes] : made) {
     const bool is_checked = name.empty() && is_binary;
-    adder.add(name.empty() ? path : beside(path, name), std::move(bytes),
+    adder.add(name.empty() ? path : path_beside(path, name), std::move(bytes),
               is_checked ? BytesCheck(check) : BytesCheck());
   }
   return adder.take();
@@ -192,17 +196,11 @@ std::vector<std::string> textured_files(const std::string& path, const Look& loo
   return names;
 }
 
-void require_own_library(const std::string& path) {
-  if (!is_obj(path)) return;
-  const std::string library = library_of(path);
-  std::error_code error;
-  if (!fs::exists(library, error)) return;
-  std::string head(own_library_head().size(), '\0');
-  std::ifstream(library, std::ios::binary).read(head.data(), std::ssize(head));
-  if (head == own_library_head()) return;
-  const std::string other = beside(path, stem_of_path(path) + "_sphparam.obj");
-  throw WriteError(library, "is there, and is no library of an export: -o " + shell_file(other) +
-                                " leaves it as it is");
+void require_export_place(const std::string& path) {
+  const std::string kind = extension_of(path);
+  require_name_of_line(path);
+  if (kind == ".obj") require_own_file(path, library_of(path));
+  if (kind == ".gltf") require_own_file(path, path_beside(path, stem_of_export(path) + ".bin"));
 }
 
 TexturedFiles add_textured_mesh(PendingFiles& files, const std::string& path,
@@ -210,7 +208,7 @@ TexturedFiles add_textured_mesh(PendingFiles& files, const std::string& path,
                                 const ExportOptions& options) {
   const bool obj = is_obj(path);
   const AssetImage& image = shown_image(look);
-  require_own_library(path);
+  require_export_place(path);
   require_export_domain(options);
   const ExportChart chart = chart_of_level(mapped, options);
   const FillerMarks fillers = fillers_of_chart(chart.chart, mapped.fillers());
@@ -223,7 +221,7 @@ TexturedFiles add_textured_mesh(PendingFiles& files, const std::string& path,
   };
   const std::string image_path = image_file(path, image);
   const std::string image_name = fs::path(image_path).filename().string();
-  Adder adder(files);
+  Adder adder(files, path);
   if (obj) {
     const std::string library = fs::path(library_of(path)).filename().string();
     if (const auto words = numbers_not_shown(textured); !words.empty())

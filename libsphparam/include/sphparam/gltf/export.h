@@ -166,11 +166,14 @@ std::vector<std::string> asset_files(const std::string& path, const Asset& asset
 /// Adds the files of an asset: one .glb; a .gltf beside a .bin and images, or by
 /// GltfContainer::Embedded alone. The path decides: container and stem of the options do not count
 /// otherwise; "-" is a .glb on standard output. Where it is compressed, triangles and vertices come
-/// in an order that makes it small, without vertices that no triangle has. What is on the disk is
-/// read back and compared number by number. Throws: WriteError; NotCertifiedError where 16-bit
-/// numbers are asked for here alone, not of `make_asset`, and fold triangles in (u, v) that do not
-/// fold in the asset; std::length_error where a .glb would be beyond 4 GiB; std::runtime_error
-/// where what was read back differs; std::invalid_argument for other endings.
+/// in an order that makes it small, without vertices that no triangle has. Places that 16-bit
+/// numbers would make one are set apart by some of their steps, as far as there is room: who welds
+/// what is at one place would find no closed surface. What is on the disk is
+/// read back and compared number by number. Throws: WriteError, also where a .bin or an image of
+/// that name is there that no export of the name wrote; NotCertifiedError where 16-bit numbers are
+/// asked for here alone, not of `make_asset`, and fold triangles in (u, v) that do not fold in the
+/// asset; std::length_error where a .glb would be beyond 4 GiB; std::runtime_error where what was
+/// read back differs; std::invalid_argument for other endings.
 WrittenFiles add_asset(PendingFiles& files, const std::string& path, const Asset& asset,
                        const GltfOptions& options = {});
 
@@ -190,16 +193,19 @@ struct TexturedFiles {
 /// Of an .obj its .mtl and an image, of a .ply an image that a comment names.
 std::vector<std::string> textured_files(const std::string& path, const Look& look);
 
-/// For programs that want to know before work: throws WriteError where the .mtl of an .obj of this
-/// name is there and was not written by an export, as other meshes may need it.
-void require_own_library(const std::string& path);
+/// For programs that want to know before work. Throws: WriteError where the .mtl of an .obj of this
+/// name, or the .bin of a .gltf in several files, is there and was not written by an export, as
+/// other meshes may need it; where the name of an .obj or .ply cannot stand in a line of text, in
+/// which what is beside it is named.
+void require_export_place(const std::string& path);
 
 /// Adds an .obj or .ply with (u, v) at corners, and what it names. What is on the disk is read back
 /// and its (u, v) are certified. Of `options`: convention, refine_poles, keep_topology, source,
 /// threads, progress; `shape`: the mesh or its sphere.
-/// Throws: WriteError, as `require_own_library` too; UnmeasurableMesh for positions that are no
-/// finite numbers; std::runtime_error where what was read back differs; NotCertifiedError and
-/// std::invalid_argument as `make_asset`, for a look without an image, and for other endings.
+/// Throws: WriteError, as `require_export_place` and for an image that no export wrote too;
+/// UnmeasurableMesh for positions that are no finite numbers; std::runtime_error where what was
+/// read back differs; NotCertifiedError and std::invalid_argument as `make_asset`, for a look
+/// without an image, and for other endings.
 TexturedFiles add_textured_mesh(PendingFiles& files, const std::string& path,
                                 const MappedMesh& mapped, const Look& look,
                                 const ExportOptions& options = {});
