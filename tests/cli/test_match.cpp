@@ -96,6 +96,11 @@ TEST_CASE("match: the map is written, certified, with every vertex's point on th
   for (const Json& landmark : report["landmarks"]) CHECK(landmark["residual"] == 0.0);
   CHECK(report["distortion"]["symmetric_dirichlet"] < 6);
   CHECK(sphparam_program({"verify", creatures.out}).code == 0);
+  CHECK(report["first"]["mapped_now"] == true);
+  const Ended again = sphparam_program(
+      {"match", creatures.out, creatures.out, "-o", creatures.folder / "again.ply", "--json", "-"});
+  for (const char* side : {"first", "second"})
+    CHECK(Json::parse(again.out)[side]["mapped_now"] == false);
   const MeshFile written = read_mesh(creatures.out);
   const MeshFile other = read_mesh(creatures.second);
   const Property* face = written.find_vertex_property("target_face");

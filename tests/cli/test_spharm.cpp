@@ -60,6 +60,45 @@ TEST_CASE("spharm: an ellipsoid on its affine sphere has its semi-axes and nothi
   CHECK_THAT(told.err, Contains("integral by ") && Contains("the last doubling changed"));
 }
 
+TEST_CASE("spharm: what a turned reconstruction has as it was, or not at all, is told") {
+  const Folder folder;
+  std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 42\nproperty double x\nproperty double y\nproperty "
+      "double z\n";
+  for (const char* name : {"nx", "ny", "nz", "U_X", "U_Y", "U_Z", "pair_0", "pair_1"})
+    ply += "property float " + std::string(name) + "\n";
+  ply +=
+      "element face 80\nproperty list uchar int vertex_indices\nproperty uchar part\nend_header\n";
+  const TriangleMesh mesh = ellipsoid(icosphere(1));
+  REQUIRE(mesh.vertex_count() == 42);
+  for (Vertex v = 0; v < 42; ++v) {
+    for (const double x : mesh.positions.row(v)) ply += std::to_string(x) + " ";
+    ply += "1 0 0 0 1 0 5 6\n";
+  }
+  for (Face f = 0; f < 80; ++f)
+    ply += "3 " + std::to_string(mesh.triangles(f, 0)) + " " +
+           std::to_string(mesh.triangles(f, 1)) + " " + std::to_string(mesh.triangles(f, 2)) +
+           " 7\n";
+  write_bytes(folder / "egg.ply", ply);
+  const auto told = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"spharm", folder / "egg.ply", "--degree",
+                                   "2",      "--reconstruct",    folder / "out.ply"};
+    words.insert(words.end(), more.begin(), more.end());
+    return sphparam_program(words).err;
+  };
+  const std::string turned =
+      "out.ply: the surface is turned, not what its vertices have: components of U are along the "
+      "axes of before\n";
+  CHECK_THAT(told({}), Contains("out.ply: not carried: normals, which are those of the surface "
+                                "before\n") &&
+                           !Contains("is turned, not"));
+  CHECK_THAT(told({"--align"}), Contains(turned));
+  CHECK_THAT(told({"--align=sphere"}), !Contains("is turned, not"));
+  CHECK_THAT(
+      told({"--scalar", "part"}),
+      Contains("--scalar: part is a property of faces; harmonics are of what vertices have"));
+}
+
 TEST_CASE("spharm: a name in Latin-1 does not spoil the report") {
   const Folder folder;
   const std::string mesh = folder / "caf\xE9.obj";

@@ -156,7 +156,8 @@ int run_match(MatchArguments& arguments) {
                      .match = found,
                      .options = arguments.options,
                      .mirrored = arguments.mirror,
-                     .distortion = summarise_distortion(found.map, session.threads())};
+                     .distortion = summarise_distortion(found.map, session.threads()),
+                     .first_mapped_now = first.mapped_here()};
   record.outputs = add_outputs(arguments, found, session);
   record.carried = fidelity(arguments, found, session);
   record.seconds = session.stopwatch.seconds();

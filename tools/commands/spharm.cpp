@@ -54,6 +54,9 @@ struct SpharmArguments : CommonArguments {
 void require_scalars(const MeshFile& file, const Words& scalars) {
   for (const std::string& name : scalars) {
     if (file.find_vertex_property(name)) continue;
+    if (file.find_face_property(name))
+      throw UsageMistake("--scalar: " + name +
+                         " is a property of faces; harmonics are of what vertices have");
     throw UsageMistake("--scalar: the vertices have no property " + name +
                        did_you_mean(name, names_of(file.vertex_properties, &Property::name)));
   }

@@ -12,11 +12,11 @@
 namespace sphparam {
 namespace {
 
-Json side_json(const std::string& path, const MappedMesh& mapped) {
+Json side_json(const std::string& path, const MappedMesh& mapped, bool mapped_now) {
   return {{"file", path},
           {"vertices", mapped.mesh().vertex_count()},
           {"triangles", mapped.mesh().face_count()},
-          {"mapped_now", mapped.mapped_here()},
+          {"mapped_now", mapped_now},
           {"certificate", certificate_json(mapped.certificate())}};
 }
 
@@ -83,8 +83,8 @@ std::string to_json(const MatchRecord& record) {
   const Match& match = record.match;
   Json json = {{"sphparam", version},
                {"command", "match"},
-               {"first", side_json(record.first, match.map.from())},
-               {"second", side_json(record.second, match.map.to())},
+               {"first", side_json(record.first, match.map.from(), record.first_mapped_now)},
+               {"second", side_json(record.second, match.map.to(), match.map.to().mapped_here())},
                {"mirrored", record.mirrored},
                {"one_to_one", true},
                {"made_by", match.made_by},

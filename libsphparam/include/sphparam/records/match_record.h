@@ -18,6 +18,7 @@ struct MatchRecord {
   const MatchOptions& options;
   bool mirrored = false;         // the first is the mirror image of what its file has
   DistortionSummary distortion;  // of the composition
+  bool first_mapped_now = true;  // before its map was moved: no file had it
   std::optional<CarriedFidelity> carried = {};  // of the first's triangles in the second's shape
   std::vector<std::pair<std::string, std::string>> outputs = {};  // what, and its file
   double seconds = 0;
