@@ -19,6 +19,7 @@
 #include "io/attributes/array_lengths.h"
 #include "io/attributes/one_material.h"
 #include "mesh/box.h"
+#include "mesh/inside_out.h"
 #include "number_text.h"
 #include "sphparam/io/planetocentric.h"
 #include "sphparam/version.h"
@@ -83,21 +84,10 @@ void add_line(BakeReport& report, std::string line) {
 
 std::string remark_of(const SurfaceField& field) { return field.remark ? field.remark() : ""; }
 
-/// Of a closed mesh whose faces look inwards, so that normals, rays and curvature do; else empty.
 std::string turning_line(const TriangleMesh& mesh) {
-  const double side = longest_side(mesh);
-  const Vector3 origin = mesh.position(0);
-  double volume = 0;  // of a mesh of length 1, sixfold
-  for (Face f = 0; f < mesh.face_count(); ++f) {
-    const auto corner = [&](int k) {
-      return Vector3((mesh.position(mesh.triangles(f, k)) - origin) / side);
-    };
-    volume += corner(0).dot(corner(1).cross(corner(2)));
-  }
-  constexpr double rounding = 1e-9;
-  return volume < -rounding ? "the mesh is inside out: normals, rays and curvature are of its "
-                              "inside (a repair of its orientation turns it over)"
-                            : "";
+  return is_inside_out(mesh) ? "the mesh is inside out: normals, rays and curvature are of its "
+                               "inside; --repair=orientation turns it over"
+                             : "";
 }
 
 bool needs_textures(const std::string& field) { return field == "basecolor"; }

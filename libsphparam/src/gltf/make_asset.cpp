@@ -9,6 +9,7 @@
 #include "io/attributes/appearance.h"
 #include "io/attributes/authorship.h"
 #include "io/attributes/remarks.h"
+#include "mesh/inside_out.h"
 #include "number_text.h"
 #include "sphparam/gltf/export.h"
 #include "sphparam/io/losses.h"
@@ -98,6 +99,15 @@ void add_comments(Asset& asset, const MeshFile& file) {
   if (!remarks.empty()) asset.extras.emplace_back("comments", joined(remarks, "\n"));
 }
 
+/// Of the mesh itself: its map keeps the sense of the faces and mirrors, so that the sphere looks
+/// outward.
+void tell_facing(const MappedMesh& mapped, ShapeKind shape, std::vector<std::string>& warnings) {
+  if (shape == ShapeKind::Mesh && is_inside_out(mapped.mesh()))
+    warnings.emplace_back(
+        "the mesh is inside out: viewers show the inside of its far side, or light it from "
+        "behind; --repair=orientation turns it over");
+}
+
 /// In one line.
 void tell_numbers_left_out(const MeshFile& file, std::vector<std::string>& warnings) {
   const std::vector<std::string> words = numbers_not_shown(file);
@@ -122,6 +132,7 @@ Asset without_levels(const MappedMesh& mapped, const Look& look, const ExportOpt
     add_axes(asset, upright_axes(mapped.file(), options.up));
   add_comments(asset, mapped.file());
   tell_numbers_left_out(mapped.file(), asset.warnings);
+  tell_facing(mapped, options.shape, asset.warnings);
   return asset;
 }
 
