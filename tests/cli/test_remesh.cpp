@@ -160,6 +160,26 @@ TEST_CASE("remesh: what makes no sense is refused, and nothing is written") {
   CHECK(sphparam_program({"verify", out}).code == 3);
 }
 
+TEST_CASE("remesh: what faces have is in no table, which is told") {
+  const Folder folder;
+  const std::string mesh = folder / "shape.ply";
+  write_bytes(mesh,
+              "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+              "property float z\nproperty float heat\nelement face 4\n"
+              "property list uchar int vertex_indices\nproperty float flux\nproperty int part\n"
+              "end_header\n0 0 0 1\n1 0 0 2\n0 1 0 3\n0 0 1 4\n"
+              "3 0 2 1 5 0\n3 0 1 3 6 0\n3 1 2 3 7 1\n3 0 3 2 8 1\n");
+  const auto told = [&](const std::string& carried) {
+    const Ended ended = sphparam_program({"remesh", mesh, "--grid", "ico:1", "--transfer", carried,
+                                          "--csv", folder / "t.csv"});
+    INFO(ended.err);
+    REQUIRE(ended.code == 0);
+    return ended.err;
+  };
+  CHECK_THAT(told("all"), Contains("not carried: flux and part of faces: rows are of vertices"));
+  CHECK_THAT(told("heat"), !Contains("not carried"));
+}
+
 TEST_CASE("remesh: --degrees has longitude and latitude in the table of --csv") {
   const Mapped mapped;
   const std::string radians = mapped.folder / "r.csv", degrees = mapped.folder / "d.csv";

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "io/formats/polygon_ply.h"
+#include "sphparam/io/fillers.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/sphere_file.h"
 #include "sphparam/mesh/mesh_defects.h"
@@ -12,6 +13,7 @@
 #include "sphparam/remesh/remesh.h"
 #include "sphparam/sphere/certificate.h"
 #include "sphparam/sphere/radial_directions.h"
+#include "sphparam/sphere/sphere_locator.h"
 #include "support/mapped.h"
 #include "support/test_meshes.h"
 
@@ -334,6 +336,68 @@ TEST_CASE("remesh: the same bytes for any number of threads, at points and over 
       CHECK(one.file().vertex_properties[i].values == three.file().vertex_properties[i].values);
     }
   }
+}
+
+TEST_CASE("remesh: what faces measure is averaged with cells, labels and finer grids are not") {
+  // Every face of ico:1 is cut into 16 of ico:3, in any order; of each value i that of ico:1 is to
+  // be the mean of those that lie in it, by area.
+  const TriangleMesh fine = icosphere(3);
+  MeshFile file;
+  file.mesh = fine;
+  file.mesh.positions.col(2) *= 2;  // so that areas differ
+  Property heat{"heat", ScalarType::Float64, {}}, part{"part", ScalarType::Int32, {}};
+  for (Face f = 0; f < fine.face_count(); ++f) {
+    heat.values.push_back(f * 37 % 101);
+    part.values.push_back(f * 37 % 101);
+  }
+  file.set_face_property(heat);
+  file.set_face_property(part);
+  const MappedMesh source({.file = file, .map = SphereMap{fine.positions}, .name = "egg"});
+  const TriangleMesh coarse = icosphere(1);
+  const auto run = [&](const TriangleMesh& grid, SampleMode sample) {
+    return remesh(source, like(grid, SphereMap{grid.positions}), {.sample = sample, .threads = 3})
+        .file();
+  };
+  std::vector<double> sums(80), areas(80);
+  const Topology topology(coarse);
+  const SphereMap coarse_map{coarse.positions};
+  const SphereLocator locator(topology, coarse_map);
+  for (Face f = 0; f < fine.face_count(); ++f) {
+    Vector3 middle = Vector3::Zero();
+    for (const Vertex v : fine.triangles.row(f)) middle += fine.position(v);
+    const auto corner = [&](int k) { return file.mesh.position(fine.triangles(f, k)); };
+    const double area = (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
+    const auto in = static_cast<size_t>(locator.locate(middle).face);
+    sums[in] += area * heat.values[static_cast<size_t>(f)];
+    areas[in] += area;
+  }
+  const std::vector<double> at_middles =
+      run(coarse, SampleMode::Point).find_face_property("heat")->values;
+  for (const SampleMode sample : {SampleMode::Cell, SampleMode::AdapBaryArea}) {
+    const MeshFile made = run(coarse, sample);
+    for (size_t g = 0; g < 80; ++g)
+      CHECK(made.find_face_property("heat")->values[g] == Approx(sums[g] / areas[g]));
+    CHECK(made.find_face_property("part")->values == at_middles);
+  }
+  CHECK(run(coarse, SampleMode::Barycentric).find_face_property("heat")->values == at_middles);
+  CHECK(run(fine, SampleMode::Cell).find_face_property("heat")->values == heat.values);
+}
+
+TEST_CASE("remesh: means of faces leave out what closes holes") {
+  MeshFile file;
+  file.mesh = icosphere(3);
+  SphereMap map{file.mesh.positions};
+  FillerMarks fillers(static_cast<size_t>(file.mesh.face_count()), 0);
+  Property heat{"heat", ScalarType::Float32, {}};
+  for (Face f = 0; f < file.mesh.face_count(); ++f) {
+    fillers[static_cast<size_t>(f)] = f == 0 ? 1 : 0;
+    heat.values.push_back(f == 0 ? 0 : 7);
+  }
+  file.set_face_property(heat);
+  mark_fillers(file, fillers);
+  const MappedMesh source({.file = std::move(file), .map = std::move(map), .name = "ball"});
+  const MeshFile made = remesh(source, grid_named("ico:1"), {.sample = SampleMode::Cell}).file();
+  CHECK(made.find_face_property("heat")->values == std::vector<double>(80, 7.0));
 }
 
 TEST_CASE("remesh: only what is wanted is carried, and unknown names are refused") {

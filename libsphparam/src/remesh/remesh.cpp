@@ -12,6 +12,7 @@
 
 #include "option_domain.h"
 #include "remesh/cell_means.h"
+#include "remesh/face_means.h"
 #include "remesh/grid_domain.h"
 #include "remesh/grid_holes.h"
 #include "remesh/resampling.h"
@@ -136,7 +137,7 @@ class Transfer {
   }
 
   /// Faces and corners need to know where the middles lie.
-  void of_faces(MeshFile& file, const Triangulation& cut) const {
+  void of_faces(MeshFile& file, const MappedMesh& source, const Triangulation& cut) const {
     const bool uv = source_.corner_texcoords && wanted_.corner_texcoords();
     const bool normal = source_.corner_normals && wanted_.corner_normals();
     const bool any_property =
@@ -145,7 +146,7 @@ class Transfer {
     if (!uv && !normal && !any_property) return;
     const Points directions = middles(grid_);
     const auto places = locate(locator_, directions, "locate faces", options_);
-    if (any_property) face_properties(file, places, cut);
+    if (any_property) face_properties(file, source, places, cut);
     report(options_.progress, "corners", 0);
     if (uv) {
       file.corner_texcoords =
@@ -214,15 +215,43 @@ class Transfer {
     }
   }
 
-  void face_properties(MeshFile& file, const std::vector<SurfacePoint>& places,
-                       const Triangulation& cut) const {
+  /// Whether faces that are measured get means over several of the source.
+  bool averages_faces() const {
+    const bool means =
+        options_.sample == SampleMode::Cell || options_.sample == SampleMode::AdapBaryArea;
+    return means && std::ranges::any_of(source_.face_properties, [&](const Property& property) {
+             return carries(property) && property.name != filler_property &&
+                    is_floating(property.type);
+           });
+  }
+
+  /// One a face of the grid: that of the face at its middle, or a mean.
+  std::vector<double> of_grid_faces(const Property& property,
+                                    const std::vector<SurfacePoint>& places,
+                                    const std::optional<Gather>& faces) const {
+    if (faces && is_floating(property.type)) {
+      std::vector<double> values = weighted_means(*faces, property.values, options_.threads);
+      if (property.type == ScalarType::Float32)
+        for (double& value : values) value = static_cast<double>(static_cast<float>(value));
+      return values;
+    }
+    std::vector<double> values;
+    values.reserve(places.size());
+    for (const SurfacePoint& place : places)
+      values.push_back(property.values[static_cast<size_t>(place.face)]);
+    return values;
+  }
+
+  void face_properties(MeshFile& file, const MappedMesh& source,
+                       const std::vector<SurfacePoint>& places, const Triangulation& cut) const {
+    std::optional<Gather> faces;
+    if (averages_faces()) faces = gather_faces(source, grid_, places, options_.threads);
     for (const Property& property : source_.face_properties) {
       if (!carries(property) || property.name == filler_property) continue;
+      const std::vector<double> of_polygons = of_grid_faces(property, places, faces);
       std::vector<double> values(static_cast<size_t>(cut.triangles.rows()));
-      for (size_t t = 0; t < values.size(); ++t) {
-        const auto polygon = static_cast<size_t>(cut.polygon_of(static_cast<std::int64_t>(t)));
-        values[t] = property.values[static_cast<size_t>(places[polygon].face)];
-      }
+      for (size_t t = 0; t < values.size(); ++t)
+        values[t] = of_polygons[static_cast<size_t>(cut.polygon_of(static_cast<std::int64_t>(t)))];
       file.set_face_property({property.name, property.type, std::move(values)});
       if (property.name == "material") file.materials = source_.materials;
     }
@@ -382,7 +411,7 @@ Remeshed remesh(const MappedMesh& source, SphereGrid grid, const RemeshOptions& 
   transfer.weigh(source, {file.mesh.positions, cut.triangles});
   transfer.vertex_properties(file);
   adopt_triangulation(file, cut);
-  transfer.of_faces(file, cut);
+  transfer.of_faces(file, source, cut);
   report(options.progress, "certify", 0);
   return {MappedMesh({.file = std::move(file),
                       .map = {std::move(grid.directions)},

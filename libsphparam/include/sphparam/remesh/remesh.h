@@ -14,9 +14,12 @@ namespace sphparam {
 
 enum class SampleMode {
   Point,  // the surface at the direction
-  Cell,   // its mean over the cell, where the grid is coarser than the source
+  /// Its mean over the cell, where the grid is coarser than the source. Of what faces measure, the
+  /// mean over the source's faces whose middles lie in a face of the grid, by their areas.
+  Cell,
   /// Positions, and what faces and corners have, as `Point`; what vertices have by
-  /// `barycentric_weights` or `adap_bary_area_weights` (resample.h)
+  /// `barycentric_weights` or `adap_bary_area_weights` (resample.h); with the latter faces as
+  /// `Cell`.
   Barycentric,
   AdapBaryArea,
 };
