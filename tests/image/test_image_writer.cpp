@@ -96,6 +96,26 @@ std::vector<char> written(const ImageFileOptions& options) {
 
 }  // namespace
 
+TEST_CASE(
+    "image writer: a TIFF names its alpha beside one value and beside three, not multiplied") {
+  for (const SampleType type : sample_types_of(ImageFormat::Tiff)) {
+    for (int channels = 1; channels <= 4; ++channels) {
+      INFO(name_of(type) << " " << channels);
+      ImageFileOptions options = plain(ImageFormat::Tiff, 20, 10, channels);
+      options.sample_type = type;
+      const std::vector<char> bytes = written(options);
+      const FileNumbers file({bytes.data(), bytes.size()}, false);
+      const TiffDirectory main = tiff_directory(file, file.at(4, 4));
+      constexpr unsigned extra_samples = 338;
+      constexpr std::uint64_t unassociated_alpha = 2;
+      REQUIRE(main.first.contains(extra_samples) == (channels % 2 == 0));
+      if (channels % 2 != 0) continue;
+      CHECK(main.count.at(extra_samples) == 1);
+      CHECK(main.first.at(extra_samples) == unassociated_alpha);
+    }
+  }
+}
+
 TEST_CASE("image writer: every format, depth, kind and channel count is what its header says") {
   for (const ImageFormat format : every_format) {
     for (const SampleType type : sample_types_of(format)) {

@@ -326,6 +326,11 @@ OIIO::ImageSpec spec_of(const SphparamImageFile& file) {
   const std::string format = file.format;
   OIIO::ImageSpec spec(file.width, file.height, file.channels, OIIO::TypeDesc(file.sample_type));
   spec.attribute("oiio:UnassociatedAlpha", 1);
+  // Beside one value OpenImageIO takes a channel for nothing, and the file would not name it.
+  if (format == "tiff" && file.channels == 2) {
+    spec.channelnames = {"Y", "A"};
+    spec.alpha_channel = 1;
+  }
   if (format == "openexr" || format == "tiff") {
     spec.attribute("DateTime", reproducible_date());
     spec.attribute("compression", "zip");
