@@ -100,6 +100,9 @@ TEST_CASE(
   HeatScale clipped{"x", 0.099972, 0.099978};  // a number that would begin beyond the left edge
   clipped.below = true;
   CHECK(numbers(400, clipped) == dots({"< 0.099972", "0.099975", "0.099978"}));
+  const Image legend = with_legend(white(400, 400), clipped);
+  for (int y = 400; y < legend.height; ++y)
+    for (int x = 0; x < text_width(" ", 1); ++x) CHECK(legend.pixel(x, y)[0] == 1);
   HeatScale typed{"x", 100.4, 200.6};
   typed.given = true;
   CHECK(numbers(400, typed) == dots({"100.4", "150", "200.6"}));

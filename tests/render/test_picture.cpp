@@ -119,6 +119,21 @@ TEST_CASE("picture: at one height of the world a mesh of half the size is drawn 
   CHECK_THROWS_AS(height_to_see(large, {.from = Vector3(0, 0, 1)}), std::invalid_argument);
 }
 
+TEST_CASE("picture: a number a face is drawn, that of vertices of the same name before it") {
+  MeshFile file = file_of(icosphere(1));
+  const auto drawn = [&] {
+    return draw_png(file, std::nullopt, {.scalar = "part", .legend = false, .size = 32});
+  };
+  Property part{"part", ScalarType::Int32, std::vector<double>(80, 0)};
+  file.set_face_property(part);
+  const std::string plain = drawn();
+  for (size_t f = 0; f < 80; ++f) part.values[f] = static_cast<double>(f % 2);
+  file.set_face_property(part);
+  CHECK(drawn() != plain);
+  file.set_vertex_property({"part", ScalarType::Int32, std::vector<double>(42, 0)});
+  CHECK(drawn() == plain);
+}
+
 TEST_CASE("picture: options outside of their domains are refused") {
   const MeshFile file = file_of(icosphere(1));
   const auto refused = [&](const DrawingOptions& options) {

@@ -78,6 +78,44 @@ TEST_CASE("value_paint: a scale says whether values lie beyond it, and may be gi
   CHECK_FALSE(value_paint(flat, "ramp").scale->above);
 }
 
+TEST_CASE("value_paint: whole numbers without a table are labels, unmixed on a scale of all") {
+  MeshFile file = ball();
+  Property part{"part", ScalarType::Int32, std::vector<double>(162, 3)};
+  part.values[0] = -2;
+  part.values[1] = 90;
+  file.set_vertex_property(part);
+  const ValuePaint paint = value_paint(file, "part");
+  CHECK_FALSE(paint.paint.blends);
+  REQUIRE(paint.scale);
+  CHECK(paint.scale->low == -2);
+  CHECK(paint.scale->high == 90);
+  CHECK(paint.paint.colours[1] == heat_colour(*paint.scale, 90));
+  CHECK(paint.paint.colours[1] != paint.paint.colours[2]);
+  CHECK_FALSE(value_paint(file, "part", std::pair(0.0, 5.0)).paint.blends);
+}
+
+TEST_CASE("value_paint: what faces have is seen as what vertices have, a colour a face") {
+  MeshFile file = ball();
+  Property heat{"heat", ScalarType::Float64, {}}, part{"part", ScalarType::Int16, {}};
+  for (Face f = 0; f < file.mesh.face_count(); ++f) {
+    heat.values.push_back(f);
+    part.values.push_back(f % 3);
+  }
+  file.set_face_property(heat);
+  file.set_face_property(part);
+  const FaceValuePaint measured = face_value_paint(file, "heat", std::pair(0.0, 319.0));
+  CHECK(measured.paint.colours.size() == 320);
+  CHECK(measured.paint.colours[7] == heat_colour(*measured.scale, 7));
+  CHECK(face_value_paint(file, "heat").scale->low == 6);  // without its tail
+  const FaceValuePaint labels = face_value_paint(file, "part");
+  CHECK(labels.scale->low == 0);
+  CHECK(labels.scale->high == 2);
+  file.comments = {"gifti label 1 0 1 0 1 green"};
+  const FaceValuePaint named = face_value_paint(file, "part");
+  CHECK_FALSE(named.scale);
+  CHECK(named.paint.colours[1] == Rgb(0, 1, 0));
+}
+
 TEST_CASE("value_paint: numbers that are missing are grey and move no scale") {
   MeshFile file = ball();
   Property values = ramp(file, 1);

@@ -37,7 +37,9 @@ constexpr char summary[] =
     "which\n"
     "a triangle's angles are off in the mean, dark 1 to yellow 8). Instead of these, --data or "
     "--scalar\n"
-    "shows a number a vertex: labels in the colours of their table, what is measured on a scale.\n";
+    "shows a number a vertex, --scalar also one a face: labels in the colours of their table, what "
+    "is\n"
+    "measured on a scale.\n";
 
 struct RenderArguments : CommonArguments {
   std::string input;
@@ -95,11 +97,13 @@ void require_png(const std::string& path) {
 /// What there is to choose from.
 std::string names_of_numbers(const MeshFile& file) {
   std::vector<std::string> names;
-  for (const Property& property : file.vertex_properties) names.push_back(property.name);
-  return names.empty() ? "its vertices have no numbers" : "there are " + enumerated(names);
+  for (const auto* properties : {&file.vertex_properties, &file.face_properties})
+    for (const Property& property : *properties) names.push_back(property.name);
+  return names.empty() ? "its vertices and faces have no numbers"
+                       : "there are " + enumerated(names);
 }
 
-/// The number a vertex that is shown: the one that is named, else the first of the data.
+/// The number a vertex or face that is shown: the one that is named, else the first of the data.
 std::string shown_number(DrawnMesh& mesh, const RenderArguments& arguments, Session& session) {
   const bool shows_number = !arguments.data.empty() || !arguments.drawing.scalar.empty();
   if (shows_number && (arguments.drawing.colouring != Colouring::Own || !arguments.texture.empty()))
@@ -109,7 +113,7 @@ std::string shown_number(DrawnMesh& mesh, const RenderArguments& arguments, Sess
       attach_data_files(mesh.file, arguments.input, arguments.data, MissingValues::Kept, session);
   const std::string& wanted = arguments.drawing.scalar;
   if (wanted.empty()) return attached.empty() ? "" : attached.front();
-  if (mesh.file.find_vertex_property(wanted)) return wanted;
+  if (mesh.file.find_vertex_property(wanted) || mesh.file.find_face_property(wanted)) return wanted;
   throw UsageMistake("--scalar: " + display_name(arguments.input) + " has no '" + wanted + "'; " +
                      names_of_numbers(mesh.file));
 }
@@ -173,7 +177,8 @@ void declare_look(Declaration& command, RenderArguments& arguments) {
               "See above (default: own)")
       .data(arguments.data)
       .text("--scalar", drawing.scalar, "NAME",
-            "The number a vertex that is shown as colours (default: the first of --data)")
+            "The number a vertex, or a face, that is shown as colours (default: the first of "
+            "--data)")
       .text("--range", arguments.range, "MIN,MAX",
             "The scale of that number (default: its 2nd to its 98th percentile)")
       .text("--texture", arguments.texture, "IMAGE",

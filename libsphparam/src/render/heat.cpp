@@ -74,30 +74,41 @@ std::vector<Tick> ends(const HeatScale& scale, bool middle) {
   return all;
 }
 
+/// Where a scale lies in a picture.
+struct Strip {
+  int left, width, dot, picture_width;
+
+  /// Where the label of a tick begins: below it in the middle, and a blank away from the edges.
+  int start(const HeatScale& scale, const Tick& tick) const {
+    const int wide = text_width(tick.label, dot), rim = text_width(" ", dot);
+    const int most = std::max(rim, picture_width - rim - wide);
+    return std::clamp(left + place_of(scale, tick.value, width) - wide / 2, rim, most);
+  }
+};
+
 /// Whether labels keep a letter's width from one another.
-bool fit(const std::vector<Tick>& ticks, const HeatScale& scale, int width, int dot) {
+bool fit(const std::vector<Tick>& ticks, const HeatScale& scale, const Strip& strip) {
   for (size_t i = 1; i < ticks.size(); ++i) {
     const Tick &left = ticks[i - 1], &right = ticks[i];
-    const int apart = place_of(scale, right.value, width) - place_of(scale, left.value, width);
-    const int needed = (text_width(left.label, dot) + text_width(right.label, dot)) / 2;
-    if (apart < needed + text_width("1", dot)) return false;
+    const int end = strip.start(scale, left) + text_width(left.label, strip.dot);
+    if (strip.start(scale, right) < end + text_width("1", strip.dot)) return false;
   }
   return true;
 }
 
 /// Powers of two, all of them or so many that the ends and 1 are among them, or the ends and the
 /// middle: as many as have room.
-std::vector<Tick> ticks(const HeatScale& scale, int width, int dot) {
+std::vector<Tick> ticks(const HeatScale& scale, const Strip& strip) {
   if (!scale.log_ratios) {
     std::vector<Tick> all = ends(scale, true);
-    return fit(all, scale, width, dot) ? all : ends(scale, false);
+    return fit(all, scale, strip) ? all : ends(scale, false);
   }
   const int low = static_cast<int>(std::ceil(scale.low));
   const int high = static_cast<int>(std::floor(scale.high)), span = high - low;
   for (int step = 1; step < span; ++step) {
     if (low % step != 0 || high % step != 0) continue;
     std::vector<Tick> some = powers(scale, step);
-    if (fit(some, scale, width, dot)) return some;
+    if (fit(some, scale, strip)) return some;
   }
   return powers(scale, std::max(1, span));
 }
@@ -109,18 +120,17 @@ void fill_column(Image& image, int x, int top, int height, const Rgb& colour) {
   }
 }
 
-void draw_scale(Image& image, const HeatScale& scale, int left, int top, int width, int dot) {
+void draw_scale(Image& image, const HeatScale& scale, const Strip& strip, int top) {
+  const auto [left, width, dot, picture_width] = strip;
   const int line = text_height(dot);
   const Rgb ink(0.2F, 0.2F, 0.2F);
   draw_text(image, scale.title, left, top - line - 2 * dot, dot, ink);
   for (int x = 0; x < width; ++x) {
     fill_column(image, left + x, top, line, heat_colour(scale, value_at(scale, (x + 0.5) / width)));
   }
-  for (const Tick& tick : ticks(scale, width, dot)) {
-    const int x = left + place_of(scale, tick.value, width);
-    fill_column(image, x, top, line + 2 * dot, ink);
-    const int wide = text_width(tick.label, dot), most = std::max(0, image.width - wide);
-    draw_text(image, tick.label, std::clamp(x - wide / 2, 0, most), top + line + 3 * dot, dot, ink);
+  for (const Tick& tick : ticks(scale, strip)) {
+    fill_column(image, left + place_of(scale, tick.value, width), top, line + 2 * dot, ink);
+    draw_text(image, tick.label, strip.start(scale, tick), top + line + 3 * dot, dot, ink);
   }
 }
 
@@ -171,7 +181,8 @@ Image with_legend(const Image& picture, const HeatScale& scale) {
   Image image(picture.width, picture.height + 5 * line, picture.channels);
   std::fill(image.pixels.begin(), image.pixels.end(), 1.0F);
   std::copy(picture.pixels.begin(), picture.pixels.end(), image.pixels.begin());
-  draw_scale(image, scale, 3 * line, picture.height + 2 * line, picture.height / 2, dot);
+  draw_scale(image, scale, {3 * line, picture.height / 2, dot, image.width},
+             picture.height + 2 * line);
   return image;
 }
 

@@ -3,6 +3,8 @@
 #include "sphparam/render/picture.h"
 
 #include <stdexcept>
+#include <tuple>
+#include <utility>
 
 #include "image/image_codec.h"
 #include "io/attributes/shading_normals.h"
@@ -124,9 +126,7 @@ class Drawing {
     if (options_.scalar.empty()) {
       paint = make_paint();
     } else {
-      ValuePaint values = value_paint(file_, options_.scalar, options_.range);
-      paint = std::move(values.paint);
-      scale = std::move(values.scale);
+      std::tie(paint, scale) = paint_of_numbers();
     }
     const auto drawn = [&](Shape shape) { return draw(shape, paint); };
     const View view = options_.view.value_or(map_ ? View::Both : View::Mesh);
@@ -141,6 +141,16 @@ class Drawing {
   std::optional<HeatScale> scale_of_colouring() const {
     const std::optional<Heat> heat = heat_of(options_.colouring);
     return heat ? std::optional(heat_scale(*heat)) : std::nullopt;
+  }
+
+  /// Of vertices, else of faces.
+  std::pair<Paint, std::optional<HeatScale>> paint_of_numbers() const {
+    if (file_.find_vertex_property(options_.scalar)) {
+      ValuePaint values = value_paint(file_, options_.scalar, options_.range);
+      return {std::move(values.paint), std::move(values.scale)};
+    }
+    FaceValuePaint values = face_value_paint(file_, options_.scalar, options_.range);
+    return {std::move(values.paint), std::move(values.scale)};
   }
 
   Paint make_paint() const {
@@ -251,7 +261,8 @@ std::string draw_png(const MeshFile& file, const std::optional<SphereMap>& map,
                      const DrawingOptions& options) {
   require_domain(options);
   if (!map && !draws_without_map(options)) throw std::invalid_argument("this needs a map");
-  if (!options.scalar.empty() && !file.find_vertex_property(options.scalar))
+  if (!options.scalar.empty() && !file.find_vertex_property(options.scalar) &&
+      !file.find_face_property(options.scalar))
     throw std::invalid_argument("the mesh has no property '" + options.scalar + "'");
   const FillerMarks fillers = fillers_of(file);
   std::optional<Shown> shown;

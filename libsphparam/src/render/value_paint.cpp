@@ -14,32 +14,44 @@ namespace {
 
 const Rgb unknown(0.62F, 0.62F, 0.64F);
 
-/// The table that the property's numbers are keys of; none where they are measured.
-std::vector<Label> labels_of(const MeshFile& file, const Property& property) {
-  for (const VertexData& data : attached_data(file))
-    for (const std::string& name : data.properties)
-      if (name == property.name)
-        return data.kind == DataKind::Labels ? data.labels : std::vector<Label>{};
-  std::vector<Label> labels;
-  if (is_floating(property.type)) return labels;
+/// What a property's numbers name, where they are labels.
+struct Naming {
+  bool names = false;              // else they are measured
+  std::vector<Label> labels = {};  // the table that they are keys of; it may be empty
+};
+
+Naming naming_of_whole_numbers(const MeshFile& file, const Property& property) {
+  Naming naming;
+  if (is_floating(property.type)) return naming;
+  naming.names = true;
   for (const std::string& comment : file.comments)
-    if (std::optional<Label> label = label_in(comment)) labels.push_back(*std::move(label));
-  return labels;
+    if (std::optional<Label> label = label_in(comment)) naming.labels.push_back(*std::move(label));
+  return naming;
 }
 
-VertexPaint label_paint(const Property& property, const std::vector<Label>& labels) {
+Naming naming_at_vertices(const MeshFile& file, const Property& property) {
+  for (const VertexData& data : attached_data(file))
+    for (const std::string& name : data.properties)
+      if (name == property.name && data.kind == DataKind::Labels)
+        return {true, data.labels};
+      else if (name == property.name)
+        return {};
+  return naming_of_whole_numbers(file, property);
+}
+
+std::vector<Rgb> colours_of_table(const Property& property, const std::vector<Label>& labels) {
   std::map<double, Rgb> colours;
   for (const Label& label : labels)
     if (label.colour && (*label.colour)[3] > 0)
       colours[label.key] = Rgb((*label.colour)[0], (*label.colour)[1], (*label.colour)[2])
                                .cwiseMax(0.0F)
                                .cwiseMin(1.0F);
-  VertexPaint paint{.colours = {}, .blends = false};
+  std::vector<Rgb> result;
   for (const double value : property.values) {
     const auto found = colours.find(value);
-    paint.colours.push_back(found == colours.end() ? unknown : found->second);
+    result.push_back(found == colours.end() ? unknown : found->second);
   }
-  return paint;
+  return result;
 }
 
 double percentile(std::vector<double>& values, double share) {
@@ -48,14 +60,15 @@ double percentile(std::vector<double>& values, double share) {
   return values[static_cast<std::size_t>(at)];
 }
 
-HeatScale scale_of(const Property& property) {
-  constexpr double tail = 0.02;
+/// Of labels all have a colour; of what is measured a few that stand out need none of their own.
+HeatScale scale_of(const Property& property, bool names) {
+  const double tail = names ? 0 : 0.02;
   std::vector<double> finite;
   for (const double value : property.values)
     if (std::isfinite(value)) finite.push_back(value);
   if (finite.empty()) return {property.name, 0, 1};
   const double low = percentile(finite, tail), high = percentile(finite, 1 - tail);
-  if (!(low < 0 && 0 < high)) return {property.name, low, high};
+  if (names || !(low < 0 && 0 < high)) return {property.name, low, high};
   const double reach = std::max(-low, high);
   return {property.name, -reach, reach};
 }
@@ -67,21 +80,37 @@ void note_values_beyond(const Property& property, HeatScale& scale) {
   }
 }
 
+/// Colours, and the scale that they are from where no table has them.
+std::pair<std::vector<Rgb>, std::optional<HeatScale>> coloured(
+    const Property& shown, const Naming& naming,
+    const std::optional<std::pair<double, double>>& range) {
+  if (!naming.labels.empty()) return {colours_of_table(shown, naming.labels), std::nullopt};
+  HeatScale scale =
+      range ? HeatScale{shown.name, range->first, range->second} : scale_of(shown, naming.names);
+  scale.given = range.has_value();
+  note_values_beyond(shown, scale);
+  std::vector<Rgb> colours;
+  for (const double value : shown.values)
+    colours.push_back(std::isfinite(value) ? heat_colour(scale, value) : unknown);
+  scale.title = in_lower_case(scale.title);
+  return {std::move(colours), std::move(scale)};
+}
+
 }  // namespace
 
 ValuePaint value_paint(const MeshFile& file, const std::string& property,
                        const std::optional<std::pair<double, double>>& range) {
   const Property& shown = *file.find_vertex_property(property);
-  if (const std::vector<Label> labels = labels_of(file, shown); !labels.empty())
-    return {label_paint(shown, labels), std::nullopt};
-  HeatScale scale = range ? HeatScale{shown.name, range->first, range->second} : scale_of(shown);
-  scale.given = range.has_value();
-  note_values_beyond(shown, scale);
-  VertexPaint paint;
-  for (const double value : shown.values)
-    paint.colours.push_back(std::isfinite(value) ? heat_colour(scale, value) : unknown);
-  scale.title = in_lower_case(scale.title);
-  return {std::move(paint), std::move(scale)};
+  const Naming naming = naming_at_vertices(file, shown);
+  auto [colours, scale] = coloured(shown, naming, range);
+  return {{.colours = std::move(colours), .blends = !naming.names}, std::move(scale)};
+}
+
+FaceValuePaint face_value_paint(const MeshFile& file, const std::string& property,
+                                const std::optional<std::pair<double, double>>& range) {
+  const Property& shown = *file.find_face_property(property);
+  auto [colours, scale] = coloured(shown, naming_of_whole_numbers(file, shown), range);
+  return {{std::move(colours)}, std::move(scale)};
 }
 
 }  // namespace sphparam

@@ -47,7 +47,8 @@ enum class Colouring {
 struct DrawingOptions {
   std::optional<View> view = std::nullopt;  // nothing: both where there is a map
   Colouring colouring = Colouring::Own;
-  std::string scalar = {};  // a number a vertex, shown instead of the colouring; empty: none
+  // A number a vertex, else a face, shown instead of the colouring; empty: none.
+  std::string scalar = {};
   // The scale of what is measured; nothing: its 2nd to its 98th percentile. Numbers, the first the
   // smaller one; where they are −x and x, colours go from blue by white to red.
   std::optional<std::pair<double, double>> range = std::nullopt;
@@ -78,8 +79,8 @@ double height_to_see(const MeshFile& file, const DrawingOptions& options = {});
 /// Requires: triangles; positions within doubles' powers (`at_drawing_size`); a ray a vertex.
 /// Ensures: the same bytes for any number of threads.
 /// Throws: std::invalid_argument for an option outside of its domain, where a map is needed and
-/// missing, for `from` along the axis that is up, and for a `scalar` that is no property of the
-/// vertices; ImageError. Cost: some seconds at 800 pixels.
+/// missing, for `from` along the axis that is up, and for a `scalar` that is no property of
+/// vertices or faces; ImageError. Cost: some seconds at 800 pixels.
 std::string draw_png(const MeshFile& file, const std::optional<SphereMap>& map,
                      const DrawingOptions& options = {});
 
