@@ -50,14 +50,19 @@ Json projection_json(const BakeRecord& record) {
           {"farthest", shares.farthest}};
 }
 
-/// In as many digits as tell them apart.
+/// In as many digits as tell them apart, then without powers of ten if doubles have so many.
 std::string ends_in_words(const std::pair<double, double>& range) {
-  constexpr int fewest = 3, most = 17;
-  const auto [low, high] = range;
-  int digits = fewest;
-  while (low < high && digits < most && short_number(low, digits) == short_number(high, digits))
-    ++digits;
-  return short_number(low, digits) + " to " + short_number(high, digits);
+  constexpr int few = 3, most = 17;
+  std::string low = short_number(range.first, few), high = short_number(range.second, few);
+  const bool is_clear = range.first == range.second || low != high;
+  const auto is_unclear = [&] {
+    return low == high || (low + high).find("e+") != std::string::npos;
+  };
+  for (int digits = few + 1; !is_clear && is_unclear() && digits <= most; ++digits) {
+    low = short_number(range.first, digits);
+    high = short_number(range.second, digits);
+  }
+  return low + " to " + high;
 }
 
 std::string beyond_words(const BakedImage& image) {
