@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "correspondence/coarse_to_fine.h"
-#include "correspondence/facing.h"
 #include "correspondence/feature_match.h"
 #include "correspondence/landmark_search.h"
 #include "correspondence/landmark_sides.h"

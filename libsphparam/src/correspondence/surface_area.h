@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "sphparam/io/mapped_mesh.h"
 
 namespace sphparam {
@@ -17,5 +20,10 @@ Points stance_of(const TriangleMesh& mesh);
 /// Throws: UnmeasurableMesh, with the mesh's name, where there is no area, or more than doubles
 /// hold.
 void require_area(const MappedMesh& mapped);
+
+/// What is told where the faces of one surface look outward and those of the other inward: maps
+/// keep the sense in which faces run, so that the map between them mirrors. Nothing where either
+/// encloses next to nothing, as sheets do whose holes are kept. Cost: a pass over the faces.
+std::optional<std::string> opposite_facing(const MappedMesh& from, const MappedMesh& to);
 
 }  // namespace sphparam

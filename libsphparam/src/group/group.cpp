@@ -9,7 +9,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "correspondence/facing.h"
 #include "correspondence/surface_area.h"
 #include "embedding/energy/energy_domain.h"
 #include "group/into_correspondence.h"

@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "correspondence/facing.h"
 #include "correspondence/surface_area.h"
 #include "number_text.h"
 #include "sphparam/correspondence/map_alignment.h"
