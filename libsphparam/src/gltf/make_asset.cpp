@@ -1,5 +1,6 @@
 #include <stdexcept>
 
+#include "bake/inside_out.h"
 #include "bake/shared_sphere.h"
 #include "gltf/export_asset.h"
 #include "gltf/export_domain.h"
@@ -9,7 +10,6 @@
 #include "io/attributes/appearance.h"
 #include "io/attributes/authorship.h"
 #include "io/attributes/remarks.h"
-#include "mesh/inside_out.h"
 #include "number_text.h"
 #include "sphparam/gltf/export.h"
 #include "sphparam/io/losses.h"

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "mesh/inside_out.h"
+#include "bake/inside_out.h"
 #include "support/test_meshes.h"
 
 namespace sphparam::tests {

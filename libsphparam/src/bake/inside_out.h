@@ -1,10 +1,12 @@
-#include "mesh/inside_out.h"
+#pragma once
 
 #include "mesh/box.h"
 
 namespace sphparam {
 
-bool is_inside_out(const TriangleMesh& mesh) {
+/// Whether the faces of a closed mesh look inward: what they enclose is less than nothing, by more
+/// than rounding. Of any size. Requires: a vertex. Cost: a pass over the faces.
+inline bool is_inside_out(const TriangleMesh& mesh) {
   const double side = longest_side(mesh);
   const Vector3 origin = mesh.position(0);
   double volume = 0;  // of a mesh of length 1, sixfold
