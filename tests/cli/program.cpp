@@ -48,7 +48,16 @@ Running::Running(const std::vector<std::string>& arguments, const std::string& s
   posix_spawn_file_actions_addopen(&streams, 0, (folder_ / "in").c_str(), O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&streams, 1, standard_output.c_str(), create, 0600);
   posix_spawn_file_actions_addopen(&streams, 2, (folder_ / "err").c_str(), create, 0600);
-  const int failed = posix_spawn(&pid_, SPHPARAM_PROGRAM, &streams, nullptr, words.data(), environ);
+  posix_spawnattr_t heeding_signals;  // also where the tests run beside a script
+  posix_spawnattr_init(&heeding_signals);
+  sigset_t heeded;
+  sigemptyset(&heeded);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&heeded, number);
+  posix_spawnattr_setsigdefault(&heeding_signals, &heeded);
+  posix_spawnattr_setflags(&heeding_signals, POSIX_SPAWN_SETSIGDEF);
+  const int failed =
+      posix_spawn(&pid_, SPHPARAM_PROGRAM, &streams, &heeding_signals, words.data(), environ);
+  posix_spawnattr_destroy(&heeding_signals);
   posix_spawn_file_actions_destroy(&streams);
   if (failed) throw std::runtime_error("cannot run " SPHPARAM_PROGRAM);
 }
@@ -65,6 +74,8 @@ Ended Running::wait() {
   fs::remove_all(folder_);
   return ended;
 }
+
+std::string program_file() { return SPHPARAM_PROGRAM; }
 
 Ended sphparam_program(const std::vector<std::string>& arguments, const std::string& standard_input,
                        const std::string& output) {

@@ -34,6 +34,9 @@ class Running {
   pid_t pid_ = 0;
 };
 
+/// The program itself, for scripts.
+std::string program_file();
+
 /// `sphparam arguments…` from start to end.
 Ended sphparam_program(const std::vector<std::string>& arguments,
                        const std::string& standard_input = "", const std::string& output = "");

@@ -569,11 +569,12 @@ TEST_CASE("batch: failures that differ in numbers are told together, with no fig
   balls("soup", 5);
   shapes.plan();
   shapes.batch("run");
-  CHECK_THAT(shapes.batch("status").out,
-             Contains("2 × code 4: this is not a closed genus-0 mesh: 2 to 5 separate components; "
-                      "the largest has 20 faces and 20 to "
-                      "50 %") &&
-                 Contains("pair, soup"));
+  CHECK_THAT(
+      shapes.batch("status").out,
+      Contains("2 × code 4: NAME: this is not a closed genus-0 mesh: 2 to 5 separate components; "
+               "the largest has 20 faces and 20 to "
+               "50 %") &&
+          Contains("pair, soup"));
   const Json failures = shapes.status()["failures"];
   REQUIRE(failures.size() == 1);
   CHECK_THAT(failures[0]["reason"].get<std::string>(), Contains("2 to 5 separate components"));

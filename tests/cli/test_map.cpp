@@ -280,6 +280,34 @@ TEST_CASE("map: SIGINT and SIGTERM end with 130 and leave no file") {
   }
 }
 
+TEST_CASE("map: a refusal names the file, also with -q") {
+  const Folder folder;
+  TriangleMesh open = icosphere(1);
+  open.triangles.conservativeResize(open.face_count() - 1, 3);
+  write_bytes(folder / "open.obj", obj_text(open));
+  const Ended ended =
+      sphparam_program({"map", folder / "open.obj", "-o", folder / "map.sph.ply", "-q"});
+  CHECK(ended.code == 4);
+  CHECK_THAT(ended.err,
+             Catch::StartsWith("sphparam: error: open.obj: this is not a closed genus-0 mesh:\n"));
+}
+
+TEST_CASE("map: signals that who starts it has it ignore stay ignored, as for a script's jobs") {
+  const Folder folder;
+  write_bytes(folder / "ball.obj", obj_text(icosphere(6)));
+  for (const std::string name : {"INT", "TERM", "HUP"}) {
+    const std::string script = "cd '" + (folder / "") + "' && trap '' " + name + " && { '" +
+                               program_file() +
+                               "' map ball.obj -o map.sph.ply --progress json 2> err & } && "
+                               "until [ -s err ]; do sleep 0.01; done; kill -" +
+                               name + " $!; wait $!";
+    CHECK(std::system(script.c_str()) == 0);
+    CHECK(folder.names() == Names{"ball.obj", "err", "map.sph.ply"});
+    fs::remove(folder / "map.sph.ply");
+    fs::remove(folder / "err");
+  }
+}
+
 TEST_CASE("map: --progress json tells each percent of a stage once") {
   const Folder folder;
   const Ended ended = sphparam_program(

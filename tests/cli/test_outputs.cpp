@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
@@ -268,7 +269,76 @@ TEST_CASE("outputs: libraries of materials and buffers are read too, and not rep
   fs::rename(folder / "c.bin", folder / "d.bin");
   write_bytes(folder / "c.gltf", text.replace(text.find("c.bin"), 5, "d.bin"));
   kept(folder / "d.bin",
-       {"export", folder / "c.gltf", "--image-size", "16", "-o", folder / "d.gltf"}, is_read);
+       {"export", folder / "c.gltf", "--image-size", "16", "-o", folder / "d.gltf"},
+       ": is there, and is no buffer of an export: -o " + (folder / "d_sphparam.gltf"));
+}
+
+TEST_CASE("outputs: a texture that lies where an export puts its own stays, its own is replaced") {
+  const Mapped mapped(100);
+  const Folder& folder = mapped.folder;
+  const std::string texture = folder / "a_checker.png";
+  for (const char* kind : {".gltf", ".obj", ".ply"}) {
+    const Words line = {"export", mapped.path, "--image-size",
+                        "16",     "-o",        folder / (std::string("a") + kind)};
+    write_bytes(texture, "an artist's");
+    const std::vector<std::string> before = folder.names();
+    const Ended ended = sphparam_program(line);
+    INFO(kind << ended.err);
+    CHECK(ended.code == 3);
+    CHECK_THAT(ended.err, Contains(texture + ": is there, and is no image of an export: -o " +
+                                   (folder / "a_sphparam") + kind + " leaves it as it is"));
+    CHECK(bytes_of(texture) == "an artist's");
+    CHECK(folder.names() == before);
+    fs::remove(texture);
+    CHECK(sphparam_program(line).code == 0);
+    CHECK(sphparam_program(line).code == 0);
+    for (const char* written : {"a.gltf", "a.bin", "a.obj", "a.mtl", "a.ply"})
+      fs::remove(folder / written);
+  }
+}
+
+TEST_CASE("outputs: a name that its own file cannot say in a line is refused before any work") {
+  const Mapped mapped(100);
+  for (const char* name : {"w\nv 9 9 9\n.obj", " lead.obj", "a\tb.ply"}) {
+    INFO(name);
+    const std::vector<std::string> before = mapped.folder.names();
+    const Ended ended = sphparam_program({"export", mapped.path, "-o", mapped.folder / name});
+    CHECK(ended.code == 3);
+    CHECK_THAT(ended.err, Contains("are named in lines of text"));
+    CHECK(mapped.folder.names() == before);
+  }
+}
+
+TEST_CASE("outputs: reports hold what is told, also where nobody is told") {
+  const Mapped mapped(100);
+  const Folder& folder = mapped.folder;
+  write_bytes(folder / "a.obj", "mtllib b.mtl\nusemtl red\n" + obj_text(icosphere(1)));
+  write_bytes(folder / "b.mtl", "newmtl red\nKd 1 0 0\n");
+  const auto report_of = [&](Words line) {
+    line.insert(line.end(), {"--json", folder / "report.json", "-q"});
+    const Ended ended = sphparam_program(line);
+    INFO(as_text(line) << ended.err);
+    REQUIRE(ended.code == 0);
+    CHECK(ended.err.empty());
+    return nlohmann::json::parse(bytes_of(folder / "report.json"));
+  };
+  const std::string mesh = mapped.path, obj = folder / "a.obj";
+  for (const Words& line : {Words{"export", mesh, "--image-size", "16", "-o", folder / "x.glb"},
+                            {"bake", mesh, "--map", "axes", "--size", "16", "-o", folder / "x.png"},
+                            {"remesh", mesh, "--grid", "ico:1", "-o", folder / "x.ply"},
+                            {"match", mesh, mesh, "-o", folder / "x.sph.ply"},
+                            {"spharm", mesh, "--degree", "2"},
+                            {"map", obj, "-o", folder / "y.sph.ply"},
+                            {"repair", obj, "-o", folder / "y.ply"},
+                            {"verify", mesh},
+                            {"info", obj},
+                            {"measure", mesh, mesh}}) {
+    INFO(as_text(line));
+    const nlohmann::json report = report_of(line);
+    for (const char* key : {"warnings", "notes", "losses"}) CHECK(report.at(key).is_array());
+  }
+  CHECK(report_of({"remesh", obj, "--grid", "ico:1", "-o", folder / "r.ply"}).at("losses") ==
+        nlohmann::json::array({"r.ply: not carried: colours and textures of materials"}));
 }
 
 TEST_CASE(

@@ -61,9 +61,12 @@ class Folder {
     if (fs::exists(path_, error) && !fs::is_directory(path_, error))
       throw WriteError(path_, "is a file, and a folder is needed: -o names one");
     is_made_ = fs::create_directory(path_, error);
+    const std::string parent = fs::path(path_).parent_path().string();
+    if (error == std::errc::no_such_file_or_directory && parent.empty())
+      throw WriteError(path_, "the folder that this was started in is gone; -o names another one");
     if (error == std::errc::no_such_file_or_directory)
       throw WriteError(path_, "the folder that it is to be made in is not there: mkdir -p " +
-                                  shell_word(fs::path(path_).parent_path().string()) + " makes it");
+                                  shell_word(parent) + " makes it");
     if (error) throw WriteError(path_, error.message());
   }
   ~Folder() {

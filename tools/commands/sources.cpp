@@ -57,7 +57,7 @@ ReadOptions limits_for(const RepairArguments& repair) {
 MeshSource read_mended(const std::string& path, const RepairArguments& repair, Session& session,
                        const Words& data, MissingValues missing) {
   MeshSource source = sphparam::read_source(path, limits_for(repair));
-  tell_losses(source, session.console);
+  tell_notes(source, session.console);
   attach_data_files(source.file, source.path, data, missing, session);
   return told_mended(std::move(source), repair, session, repaired);
 }

@@ -52,6 +52,7 @@ void Console::error(const std::string& text) {
 }
 
 void Console::warning(const std::string& text) {
+  so_far_.warnings.push_back(text);
   if (verbosity_ == Verbosity::Quiet) return;
   clear_progress();
   print_line("sphparam: " + coloured("33", "warning:") + " " + text);
@@ -67,6 +68,16 @@ void Console::detail(const std::string& text) {
   if (verbosity_ != Verbosity::Verbose) return;
   clear_progress();
   print_line(text);
+}
+
+void Console::loss(const std::string& text) {
+  so_far_.losses.push_back(text);
+  say("  " + text);
+}
+
+void Console::note(const std::string& text) {
+  so_far_.notes.push_back(text);
+  detail("  note: " + text);
 }
 
 bool Console::progress(std::string_view stage, double fraction, const std::string& detail) {

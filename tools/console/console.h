@@ -3,6 +3,8 @@
 #include <string>
 #include <string_view>
 
+#include "sphparam/records/told.h"
+
 namespace sphparam::cli {
 
 enum class Verbosity { Quiet, Normal, Verbose };
@@ -22,6 +24,11 @@ class Console {
   void warning(const std::string& text);  // unless quiet
   void say(const std::string& text);      // the result, unless quiet
   void detail(const std::string& text);   // when verbose
+  void loss(const std::string& text);     // what an output does not carry: as `say`
+  void note(const std::string& text);     // what is odd and harmless: as `detail`
+
+  /// All warnings, notes and losses so far, shown or not.
+  const Told& told() const { return so_far_; }
 
   /// Shows how far a stage is. Returns false once a signal asked the program to stop, as the
   /// library's progress callback does. `detail`: more of it for people, as a rate. As JSON a line
@@ -36,6 +43,7 @@ class Console {
   bool rewrites_line_;
   std::string shown_;  // the line that is rewritten
   std::string told_;   // the last of the JSON lines
+  Told so_far_;
 };
 
 /// Prints "sphparam: error: …", in red where the terminal wants colour.

@@ -47,9 +47,9 @@ bool is_ignored(int number) {
 }  // namespace
 
 void end_on_interruption() {
-  handle(SIGINT, on_signal);
-  handle(SIGTERM, on_signal);
-  if (!is_ignored(SIGHUP)) handle(SIGHUP, on_signal);  // nohup
+  // Who started the program may have it ignore some: nohup, and scripts for what runs beside them.
+  for (const int number : {SIGINT, SIGTERM, SIGHUP})
+    if (!is_ignored(number)) handle(number, on_signal);
 }
 
 void turn_signals_into_errors() {

@@ -38,6 +38,7 @@
 #include "sphparam/errors.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/no_room_error.h"
+#include "sphparam/io/paths.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/version.h"
@@ -355,10 +356,12 @@ int told(const std::exception& error, ExitCode code) {
   return code;
 }
 
-/// After repairs, what is wrong is that of the mesh as they left it.
-int mesh_error(const MeshError& error, const std::string& advice, bool repaired = false) {
-  const std::string what = "this is not a closed genus-0 mesh";
-  print_error(repaired ? "after the repairs told last " + what + ":" : what + ":");
+/// `file`: its name and a colon, where it is known. After repairs, what is wrong is that of the
+/// mesh as they left it.
+int mesh_error(const MeshError& error, const std::string& file, const std::string& advice,
+               bool repaired = false) {
+  const char* const when = repaired ? "after the repairs told last " : "";
+  print_error(file + when + "this is not a closed genus-0 mesh:");
   std::fputs((defect_list(error.defects()) + advice).c_str(), stderr);
   return MeshUnusable;
 }
@@ -368,9 +371,10 @@ int guarded_main(int argc, char** argv, int no_room) {
   try {
     return run_program(argc, argv);
   } catch (const MeshRefusal& error) {
-    return mesh_error(error, advice_for({argv + 1, argv + argc}, error), !error.done().empty());
+    const std::string advice = advice_for({argv + 1, argv + argc}, error);
+    return mesh_error(error, display_name(error.path()) + ": ", advice, !error.done().empty());
   } catch (const MeshError& error) {
-    return mesh_error(error, "");
+    return mesh_error(error, "", "");
   } catch (const UnmeasurableMesh& error) {
     return told(error, MeshUnusable);
   } catch (const std::range_error& error) {  // what numbers of the file that is wanted cannot hold

@@ -24,12 +24,13 @@ void Session::warn(const std::vector<std::string>& warnings) {
 }
 
 void Session::add_report(const std::function<std::string()>& report) {
-  if (!arguments_.json.empty()) files.add(arguments_.json, report());
+  if (!arguments_.json.empty()) report_ = report();
 }
 
 void Session::publish() {
   hold_signals();  // a handler that ends at once would say 130 of files that have their names
   if (interrupted()) throw Cancelled();
+  if (report_) files.add(arguments_.json, with_told(*report_, console.told()));
   files.publish();
   console.clear_progress();
 }

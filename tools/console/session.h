@@ -38,7 +38,8 @@ class Session {
   /// For the library: shown, and false once a signal arrived.
   Progress progress();
   void warn(const std::vector<std::string>& warnings);
-  /// Adds what --json asks for, if it does.
+  /// What --json asks for, if it does; what was told is added to it, up to `publish`, where it is
+  /// written.
   void add_report(const std::function<std::string()>& report);
   /// From here on signals are held. Throws: Cancelled where one has arrived; as
   /// `PendingFiles::publish`.
@@ -47,6 +48,7 @@ class Session {
  private:
   const CommonArguments& arguments_;
   std::optional<OrderlyInterruption> orderly_;
+  std::optional<std::string> report_;
 
  public:
   PendingFiles files;  // they are cleaned up before signals are let go

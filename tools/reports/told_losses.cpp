@@ -1,5 +1,7 @@
 #include "reports/told_losses.h"
 
+#include <algorithm>
+
 #include "sphparam/io/losses.h"
 #include "sphparam/io/paths.h"
 
@@ -9,15 +11,22 @@ void tell_losses(const MeshSource& source, Console& console) {
   tell_losses_of_reading(source.path, source.notes, console);
 }
 
+void tell_notes(const MeshSource& source, Console& console) {
+  tell_losses(source, console);
+  const std::vector<std::string> losses = losses_among(source.notes);
+  for (const std::string& note : source.notes)
+    if (!std::ranges::count(losses, note)) console.note(note);
+}
+
 void tell_losses_of_reading(const std::string& path, const std::vector<std::string>& notes,
                             Console& console) {
   for (const std::string& loss : losses_among(notes))
-    console.say("  " + display_name(path) + ": " + loss);
+    console.loss(display_name(path) + ": " + loss);
 }
 
 void tell_losses(const std::string& path, const std::vector<std::string>& losses,
                  Console& console) {
-  for (const std::string& loss : losses) console.say("  " + output_name(path) + ": " + loss);
+  for (const std::string& loss : losses) console.loss(output_name(path) + ": " + loss);
 }
 
 }  // namespace sphparam::cli

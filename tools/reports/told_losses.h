@@ -8,7 +8,9 @@ namespace sphparam::cli {
 /// Says what the file carries and the mesh file does not, a line each. Every command whose outputs
 /// carry what a mesh carries calls it.
 void tell_losses(const MeshSource& source, Console& console);
-/// The same of notes of a reader.
+/// That, and in detail what else reading it noted.
+void tell_notes(const MeshSource& source, Console& console);
+/// The losses among the notes of a reader.
 void tell_losses_of_reading(const std::string& path, const std::vector<std::string>& notes,
                             Console& console);
 
