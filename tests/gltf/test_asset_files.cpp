@@ -102,7 +102,7 @@ TEST_CASE(
     "asset files: names that a line of text cannot hold are refused, where they stand in one") {
   const MappedMesh mapped = ball("ball.obj");
   const Place place;
-  for (const std::string name : {"w\nv 9 9 9\n", " lead", "a\tb", "a\rb", "a\x7F"}) {
+  for (const std::string name : {"w\nv 9 9 9\n", " lead", "a\tb", "a\\b", "a\rb", "a\x7F"}) {
     INFO(name);
     for (const char* kind : {".obj", ".ply"}) {
       CHECK_THROWS_AS(require_export_place(place / (name + kind)), WriteError);

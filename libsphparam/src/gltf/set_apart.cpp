@@ -1,5 +1,6 @@
 // Cells are sorted, with the places in them; the first place of a cell stays, and every other one
-// goes to the nearest cell about it that is free. Which is first, the floats decide.
+// goes to the nearest cell about it that is free. First are those that make the bounds, then the
+// floats decide.
 
 #include "gltf/set_apart.h"
 

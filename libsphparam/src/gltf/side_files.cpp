@@ -87,7 +87,10 @@ std::string word_of(const std::string& file) {
 
 bool is_blank(char byte) { return byte == ' '; }
 
-bool is_control(char byte) { return static_cast<unsigned char>(byte) < ' ' || byte == '\x7F'; }
+/// Line breaks and the like, and what readers take for the end of a folder's name.
+bool ends_names(char byte) {
+  return static_cast<unsigned char>(byte) < ' ' || byte == '\x7F' || byte == '\\';
+}
 
 }  // namespace
 
@@ -113,10 +116,10 @@ void require_name_of_line(const std::string& path) {
   const std::string stem = stem_of_export(path);
   const std::string kind = extension_of(path);
   if (stem.empty() || (kind != ".obj" && kind != ".ply")) return;
-  if (std::ranges::any_of(stem, is_control) || is_blank(stem.front()))
+  if (std::ranges::any_of(stem, ends_names) || is_blank(stem.front()))
     throw WriteError(path, "the files beside a " + kind +
                                " are named in lines of text, where names have no line breaks or "
-                               "other control characters, and no blank first");
+                               "other control characters, no backslash, and no blank first");
 }
 
 }  // namespace sphparam
