@@ -17,15 +17,15 @@
 // the rim of a block are computed twice; nothing is written from two sides, so blocks run in
 // parallel with the same result.
 //
-// What a step needs and what the sweeps after it need are never alive at the same time: at a
-// million triangles making them anew costs less than their room would.
+// What a step needs and what the sweeps after it need are never alive at the same time on large
+// meshes: at a million triangles making them anew costs less than their room would.
 
 namespace sphparam {
 namespace {
 
 constexpr std::int64_t vertex_grain = 512;
-constexpr int least_parallel_vertices = 1024;    // below it waking other threads costs more
-constexpr int least_trimmed_vertices = 1 << 18;  // below it that frees little, and costs a tenth
+constexpr int least_parallel_vertices = 1024;  // below it waking other threads costs more
+constexpr int least_large_vertices = 1 << 18;  // below it saving memory saves little of it
 constexpr int most_iterations = 60;
 constexpr double longest_step = 0.7;  // radians, of any vertex
 constexpr double sufficient_decrease = 1e-4;
@@ -219,7 +219,8 @@ RingPacks GlobalNewton::pack_rings_of_all() const {
 
 void GlobalNewton::sweep(const DistortionEnergy& energy, int sweeps) {
   make_room();
-  const RingPacks rings = pack_rings_of_all();
+  if (!rings_) rings_ = pack_rings_of_all();
+  const RingPacks& rings = *rings_;
   for (int n = 0; n < sweeps * rings.colours(); ++n) {
     if (n % rings.colours() == 0) ask_();
     const int c = n % rings.colours(), first = rings.colour_start[at(c)];
@@ -229,6 +230,7 @@ void GlobalNewton::sweep(const DistortionEnergy& energy, int sweeps) {
                  image_.data(), energy, over_relaxation);
     });
   }
+  if (is_large()) rings_.reset();
 }
 
 bool GlobalNewton::can_move() const {
@@ -237,8 +239,10 @@ bool GlobalNewton::can_move() const {
 
 bool GlobalNewton::covers_once() const { return blocks_.covering(image_, threads_) <= once; }
 
+bool GlobalNewton::is_large() const { return hessian_.rows() >= least_large_vertices; }
+
 void GlobalNewton::make_room() const {
-  if (hessian_.rows() >= least_trimmed_vertices) give_back_freed_memory();
+  if (is_large()) give_back_freed_memory();
 }
 
 /// The solution of a step's system; nothing where `assemble` fails. Leaves nothing of the Hessian

@@ -78,6 +78,7 @@ class GlobalNewton {
   void make_pattern(const Topology& topology, const std::vector<int>& new_name);
   bool assemble(const DistortionEnergy& energy, Curvature curvature);
   void gather_row(int row, const TriangleTerms* terms);
+  bool is_large() const;
   void make_room() const;
   LinearSolution solve(const DistortionEnergy& energy, double least_share, Curvature curvature);
   LinearSolution direction(const DistortionEnergy& energy, double least_share, Step& made);
@@ -95,6 +96,7 @@ class GlobalNewton {
   BlockMatrix<2> hessian_;   // in these units; entries only in a step
   Unknowns downhill_;        // − the gradient; only in a step
   SweepOrder order_;
+  std::optional<RingPacks> rings_;  // of sweeps; on large meshes only in one
   TriangleBlocks blocks_;
   StiffenedTriangles stiffened_;
   std::optional<Multigrid> multigrid_;
