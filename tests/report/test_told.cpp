@@ -20,7 +20,7 @@ TEST_CASE("told: a record says what was told beside it, each thing once") {
 }
 
 TEST_CASE(
-    "told: nothing is three empty lists; bytes of file names that are no text do not matter") {
+    "told: nothing is three empty lists, and bytes of file names that are no text do not matter") {
   CHECK(Json::parse(with_told("{}", {})) ==
         Json::parse(R"({"warnings": [], "notes": [], "losses": []})"));
   CHECK(Json::parse(with_told("{}", {.notes = {"a\xFF.obj: odd"}}))["notes"].size() == 1);
