@@ -2,32 +2,10 @@
 
 #include <cmath>
 
-#include "mesh/box.h"
 #include "mesh/flat_face.h"
 #include "sphparam/errors.h"
 
 namespace sphparam {
-
-namespace {
-
-/// What is enclosed, by the sign of its sense, against the cube of the root of the area: 0.094 of a
-/// ball, 0.01 of a cortex, next to nothing of a sheet.
-double enclosed(const TriangleMesh& mesh) {
-  const Vector3 origin = mesh.position(0);
-  const double unit = longest_side(mesh);
-  double volume = 0, area = 0;
-  for (Face f = 0; f < mesh.face_count(); ++f) {
-    const auto corner = [&](int k) {
-      return Vector3((mesh.position(mesh.triangles(f, k)) - origin) / unit);
-    };
-    const Vector3 a = corner(0), b = corner(1), c = corner(2);
-    volume += a.dot(b.cross(c)) / 6;
-    area += (b - a).cross(c - a).norm() / 2;
-  }
-  return volume / (area * std::sqrt(area));
-}
-
-}  // namespace
 
 double surface_area(const TriangleMesh& mesh) {
   double area = 0;

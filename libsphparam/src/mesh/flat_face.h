@@ -31,4 +31,9 @@ inline double face_area(const TriangleMesh& mesh, Face face) {
 /// are there.
 bool has_area(const TriangleMesh& mesh);
 
+/// What a closed mesh encloses, below 0 where its faces look inward, against the cube of the root
+/// of its area: 0.094 of a ball, 0.01 of a cortex, next to nothing of a sheet. At any size; no
+/// number without area. Requires: a vertex; faces name vertices that are there.
+double enclosed(const TriangleMesh& mesh);
+
 }  // namespace sphparam

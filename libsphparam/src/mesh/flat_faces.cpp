@@ -2,6 +2,7 @@
 #include <cmath>
 #include <optional>
 
+#include "mesh/box.h"
 #include "mesh/flat_face.h"
 #include "mesh/paired_faces.h"
 #include "mesh/repair_state.h"
@@ -145,6 +146,21 @@ bool has_area(const TriangleMesh& mesh) {
     if (!has_no_area(corner(0), corner(1), corner(2))) return true;
   }
   return false;
+}
+
+double enclosed(const TriangleMesh& mesh) {
+  const Box box = box_of(mesh.positions);
+  const double size = (box.upper / 2 - box.lower / 2).maxCoeff();  // halves do not overflow
+  double volume = 0, area = 0;
+  for (Face f = 0; f < static_cast<Face>(mesh.face_count()); ++f) {
+    const auto corner = [&](int k) {
+      return Vector3((mesh.position(mesh.triangles(f, k)) / 2 - box.lower / 2) / size);
+    };
+    const Vector3 a = corner(0), b = corner(1), c = corner(2);
+    volume += a.dot(b.cross(c)) / 6;
+    area += triangle_area(a, b, c);
+  }
+  return volume / (area * std::sqrt(area));
 }
 
 }  // namespace sphparam

@@ -9,6 +9,7 @@
 #include "call.h"
 #include "io/inspected_source.h"
 #include "map_request.h"
+#include "mesh/flat_face.h"
 #include "sphere/radius.h"
 #include "sphparam/frame_check.h"
 #include "sphparam/io/certified_files.h"
@@ -79,20 +80,6 @@ void by_file_numbers(Parameterization& result, const FileNumbers& numbers) {
   if (result.meridian) result.meridian = number(*result.meridian);
 }
 
-/// Whether the faces are clockwise from outside. Of any size: lengths are relative to the box.
-bool is_inside_out(const TriangleMesh& mesh) {
-  const Vector3 lower = mesh.positions.colwise().minCoeff();
-  const Vector3 upper = mesh.positions.colwise().maxCoeff();
-  const double size = (upper / 2 - lower / 2).maxCoeff();
-  const auto corner = [&](Face f, int k) -> Vector3 {
-    return (mesh.position(mesh.triangles(f, k)) / 2 - lower / 2) / size;
-  };
-  double volume = 0;
-  for (Face f = 0; f < mesh.face_count(); ++f)
-    volume += corner(f, 0).dot(corner(f, 1).cross(corner(f, 2)));
-  return volume < 0;
-}
-
 Mapped map_mesh(MeshSource source, Request request) {
   ParameterizeOptions& options = request.options;
   Topology topology = topology_of(source);
@@ -104,7 +91,7 @@ Mapped map_mesh(MeshSource source, Request request) {
   Parameterization result = parameterize_standing(source.file, topology, options);
   const Making making{stopwatch.seconds(),
                       static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC,
-                      is_inside_out(source.file.mesh)};
+                      enclosed(source.file.mesh) < 0};
   require_wanted(result, options);
   const FileNumbers numbers(source.file);
   std::string upright;
