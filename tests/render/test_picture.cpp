@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "image/image_codec.h"
+#include "sphparam/io/fillers.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/sphere_file.h"
 #include "sphparam/render/coloured_values.h"
@@ -132,6 +133,21 @@ TEST_CASE("picture: a number a face is drawn, that of vertices of the same name 
   CHECK(drawn() != plain);
   file.set_vertex_property({"part", ScalarType::Int32, std::vector<double>(42, 0)});
   CHECK(drawn() == plain);
+}
+
+TEST_CASE("picture: the mark of what closes holes is drawn as 0, for nothing else is to be seen") {
+  MeshFile file = file_of(icosphere(2));
+  const SphereMap map{file.mesh.positions};
+  file.set_face_property({"zero", ScalarType::Uint8, std::vector<double>(320, 0)});
+  FillerMarks fillers(320, 0);
+  fillers[7] = 1;
+  mark_fillers(file, fillers);
+  for (const std::optional<SphereMap>& shown : {std::optional(map), std::optional<SphereMap>()}) {
+    const auto drawn = [&](const char* name) {
+      return draw_png(file, shown, {.scalar = name, .legend = false, .size = 64});
+    };
+    CHECK(drawn("filler") == drawn("zero"));
+  }
 }
 
 TEST_CASE("picture: options outside of their domains are refused") {

@@ -101,8 +101,11 @@ struct Shown {
 
 Shown shown_surface(const MeshFile& file, const std::optional<SphereMap>& map,
                     const FillerMarks& fillers) {
-  if (!map) return {without_fillers(file), std::nullopt, std::nullopt};
-  Shown shown{without_fillers(attach_map(file, *map, {})), std::nullopt, std::nullopt};
+  Shown shown{map ? without_fillers(attach_map(file, *map, {})) : without_fillers(file),
+              std::nullopt, std::nullopt};
+  // None is left; their mark may be the number that is to be seen.
+  mark_fillers(shown.file, FillerMarks(static_cast<size_t>(shown.file.mesh.face_count()), 0));
+  if (!map) return shown;
   shown.map = read_sphere(shown.file);
   FillerMarks surface;
   for (const unsigned char mark : fillers) surface.push_back(mark ? 0 : 1);

@@ -32,10 +32,8 @@ Naming naming_of_whole_numbers(const MeshFile& file, const Property& property) {
 Naming naming_at_vertices(const MeshFile& file, const Property& property) {
   for (const VertexData& data : attached_data(file))
     for (const std::string& name : data.properties)
-      if (name == property.name && data.kind == DataKind::Labels)
-        return {true, data.labels};
-      else if (name == property.name)
-        return {};
+      if (name == property.name)
+        return data.kind == DataKind::Labels ? Naming{true, data.labels} : Naming{};
   return naming_of_whole_numbers(file, property);
 }
 
