@@ -5,6 +5,7 @@
 #include "mesh/triangle_geometry.h"
 #include "sphparam/correspondence/match.h"
 #include "sphparam/correspondence/matched_files.h"
+#include "sphparam/io/fillers.h"
 #include "sphparam/parameterize.h"
 #include "support/test_meshes.h"
 
@@ -324,6 +325,25 @@ TEST_CASE(
   CHECK_THROWS_WITH(
       match_surfaces(in, out, many),
       Catch::StartsWith("the landmarks look mirrored") && Catch::EndsWith("; " + told));
+}
+
+TEST_CASE("match: which side of a sheet is out its file says, and nobody is told otherwise") {
+  const auto half_filled = [](TriangleMesh mesh) {
+    SphereMap map = parameterize(mesh).map;
+    FillerMarks fillers;
+    for (const auto& face : mesh.triangles.rowwise())
+      fillers.push_back(mesh.position(face[0]).z() < 0 ? 1 : 0);
+    MeshFile file;
+    file.mesh = std::move(mesh);
+    mark_fillers(file, fillers);
+    return MappedMesh({.file = std::move(file), .map = std::move(map), .name = "sheet"});
+  };
+  TriangleMesh turned = bumpy(3);
+  turned.triangles.col(1).swap(turned.triangles.col(2));
+  const MappedMesh one = half_filled(bumpy(3)), other = half_filled(turned);
+  for (const std::string& warning :
+       match_surfaces(one, other, {.landmarks = with_itself(one.mesh(), 1)}).warnings)
+    CHECK_THAT(warning, !Catch::Contains("inside out"));
 }
 
 TEST_CASE("match: the distortion of the identity is none") {

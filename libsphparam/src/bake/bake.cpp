@@ -84,10 +84,10 @@ void add_line(BakeReport& report, std::string line) {
 
 std::string remark_of(const SurfaceField& field) { return field.remark ? field.remark() : ""; }
 
-std::string turning_line(const TriangleMesh& mesh) {
-  return is_inside_out(mesh) ? "the mesh is inside out: normals, rays and curvature are of its "
-                               "inside; --repair=orientation turns it over"
-                             : "";
+std::string turning_line(const MappedMesh& source) {
+  return is_inside_out(source) ? "the mesh is inside out: normals, rays and curvature are of its "
+                                 "inside; --repair=orientation turns it over"
+                               : "";
 }
 
 bool needs_textures(const std::string& field) { return field == "basecolor"; }
@@ -141,7 +141,7 @@ BakeReport bake(const MappedMesh& source, const std::vector<BakeRequest>& images
   ChosenTarget chosen = choose_target(source, settings);
   BakeReport report{
       .images = {}, .target_distance = chosen.distance, .warnings = std::move(chosen.warnings)};
-  if (!settings.from) add_line(report, turning_line(source.mesh()));
+  if (!settings.from) add_line(report, turning_line(source));
   const bool with_textures =
       std::ranges::any_of(images, [](const auto& image) { return needs_textures(image.field); });
   BakeScene scene = scene_for(source, std::move(chosen.target), with_textures, settings);

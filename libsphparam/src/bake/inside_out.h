@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mesh/flat_face.h"
+#include "sphparam/io/mapped_mesh.h"
 
 namespace sphparam {
 
@@ -9,6 +10,11 @@ namespace sphparam {
 inline bool is_inside_out(const TriangleMesh& mesh) {
   constexpr double rounding = 1e-9;
   return enclosed(mesh) < -rounding;
+}
+
+/// The same of a surface with kept holes: a sheet has no inside, and no repair turns it over.
+inline bool is_inside_out(const MappedMesh& mapped) {
+  return !is_sheet(mapped.mesh(), mapped.fillers()) && is_inside_out(mapped.mesh());
 }
 
 }  // namespace sphparam

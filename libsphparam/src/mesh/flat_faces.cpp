@@ -6,6 +6,7 @@
 #include "mesh/flat_face.h"
 #include "mesh/paired_faces.h"
 #include "mesh/repair_state.h"
+#include "mesh/unit_size.h"
 #include "sphparam/mesh/topology.h"
 
 // A flat face with two vertices at one place loses the edge between them, if the surface stays what
@@ -161,6 +162,18 @@ double enclosed(const TriangleMesh& mesh) {
     area += triangle_area(a, b, c);
   }
   return volume / (area * std::sqrt(area));
+}
+
+bool is_sheet(const TriangleMesh& mesh, const FillerMarks& fillers) {
+  if (fillers.empty()) return false;
+  const std::optional<Rescaled> unit = at_unit_size(mesh);
+  double area = 0, filled = 0;
+  for (Face f = 0; f < static_cast<Face>(mesh.face_count()); ++f) {
+    const double of_face = face_area(unit ? unit->mesh : mesh, f);
+    area += of_face;
+    if (fillers[static_cast<size_t>(f)]) filled += of_face;
+  }
+  return filled > most_filled * area;
 }
 
 }  // namespace sphparam

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mesh/flat_face.h"
 #include "mesh/index_range.h"
 #include "mesh/repair_state.h"
 #include "mesh/triangle_geometry.h"
@@ -18,11 +19,9 @@ namespace {
 
 constexpr int most_rounds = 5;
 
-/// Whether inside and outside are those of the surface, whatever shape the fillers have. A sheet is
-/// as much filler as surface: which side of it is out, its file says.
+/// Whether inside and outside are those of the surface, whatever shape the fillers have.
 bool encloses(const RepairState& state) {
   if (!state.has_fillers()) return true;
-  constexpr double most_filled = 0.4;
   double area = 0, filled = 0;
   for (Face f = 0; f < state.face_count(); ++f) {
     const auto& [a, b, c] = state.faces[f];

@@ -89,9 +89,9 @@ Mapped map_mesh(MeshSource source, Request request) {
   const std::clock_t begin = std::clock();
   options.fillers = fillers_of(source.file);
   Parameterization result = parameterize_standing(source.file, topology, options);
-  const Making making{stopwatch.seconds(),
-                      static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC,
-                      enclosed(source.file.mesh) < 0};
+  const Making making{
+      stopwatch.seconds(), static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC,
+      enclosed(source.file.mesh) < 0 && !is_sheet(source.file.mesh, options.fillers)};
   require_wanted(result, options);
   const FileNumbers numbers(source.file);
   std::string upright;
