@@ -45,7 +45,8 @@ TEST_CASE("remesh --subdiv-fit: control mesh and limit mesh are written certifie
 }
 
 TEST_CASE(
-    "What has no sensible size is mapped, but neither fitted nor expanded; nor is, without area") {
+    "What has no sensible size is mapped, but neither fitted nor expanded, nor is what has no "
+    "area") {
   const Folder folder;
   TriangleMesh flat = icosphere(2), huge = icosphere(2);
   flat.positions.rightCols(2).setZero();

@@ -226,7 +226,7 @@ TEST_CASE("repair: faces without a place count among those lost, and are told to
   CHECK(Json::parse(dropped.out)["components"]["faces_kept"] == Approx(315.0 / 340));
 }
 
-TEST_CASE("repair: a mesh without area has no shape, and is refused; the tiniest are mapped") {
+TEST_CASE("repair: a mesh without area has no shape, and is refused, the tiniest are mapped") {
   const Folder folder;
   const std::string map = folder / "m.sph.ply";
   TriangleMesh flat = icosphere(2);

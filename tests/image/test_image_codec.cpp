@@ -101,7 +101,7 @@ TEST_CASE("image codec: PNG keeps every 8-bit and 16-bit value, alpha not multip
   }
 }
 
-TEST_CASE("image codec: EXR keeps floats bit by bit, beyond [0, 1] too") {
+TEST_CASE("image codec: EXR keeps floats bit by bit, beyond 0 to 1 too") {
   Image image(17, 5, 3);
   for (size_t i = 0; i < image.pixels.size(); ++i) {
     image.pixels[i] = std::sin(static_cast<float>(i)) * 1e6F;

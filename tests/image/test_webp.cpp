@@ -67,7 +67,7 @@ TEST_CASE("webp: with loss colours are near and alpha is the same, less quality 
   }
 }
 
-TEST_CASE("webp: grey becomes RGB, values beyond [0, 1] are clamped, bytes are the same again") {
+TEST_CASE("webp: grey becomes RGB, values beyond 0 to 1 are clamped, bytes are the same again") {
   Image grey = picture(32, 16, 1), both = picture(32, 16, 2);
   grey.pixels[0] = -1;
   grey.pixels[1] = 7;
