@@ -37,6 +37,7 @@ class OneShape {
 
   ItemSetting setting() const { return {folder_, plan_, write_a_result}; }
   ItemSetting without_room() const { return {folder_, plan_, lacks_room}; }
+  ItemSetting with_warnings() const { return {folder_, plan_, warns}; }
   const BatchItem& item() const { return plan_.items[0]; }
   std::string record() const { return small_file(folder_ + "/results/a/record.json").value_or(""); }
   bool has_failed() const { return fs::exists(folder_ + "/failed/a.json"); }
@@ -53,10 +54,18 @@ class OneShape {
     return step_has_no_room;
   }
 
+  /// Of one thing aloud, by its file, and of another in its report alone.
+  static int warn(const BatchStep& step, const BatchStepSetting& setting) {
+    std::fputs("sphparam: warning: a.obj: flat\n", stderr);
+    std::ofstream(setting.report) << R"({"warnings": ["flat", "inside out"]})";
+    return write_result(step, setting);
+  }
+
   const std::string folder_ =
       (fs::temp_directory_path() / ("sphparam_item_" + std::to_string(::getpid()))).string();
   const std::function<int(const BatchStep&, const BatchStepSetting&)> write_a_result = write_result;
   const std::function<int(const BatchStep&, const BatchStepSetting&)> lacks_room = find_no_room;
+  const std::function<int(const BatchStep&, const BatchStepSetting&)> warns = warn;
   BatchPlan plan_;
 };
 
@@ -84,6 +93,16 @@ TEST_CASE("item run: who is killed when his results are out has done his work, a
   CHECK_FALSE(fs::exists(shape.staged()));
   CHECK(run_in_a_process(shape) == ItemDoneElsewhere);
   CHECK(shape.record() == record);
+}
+
+TEST_CASE(
+    "item run: what steps warn of counts once, and also where -q has them say it in reports") {
+  const OneShape shape;
+  const auto work = [&] { return run_item(shape.with_warnings(), shape.item()); };
+  REQUIRE(wait_for_child(start_child(work)).code == ItemDone);
+  const auto head = read_head(shape.record());
+  REQUIRE(head);
+  CHECK(head->warnings == std::vector<std::string>{"a.obj: flat", "inside out"});
 }
 
 TEST_CASE("item run: a machine without room is no failure of the item") {

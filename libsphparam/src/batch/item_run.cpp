@@ -118,6 +118,22 @@ std::string repairs_of(const std::vector<BatchStepRecord>& steps) {
   return joined(told, "; ");
 }
 
+/// What its steps warned of, each once. With -q a step says so in its report alone.
+std::vector<std::string> warnings_of(const BatchRecord& record) {
+  std::vector<std::string> warnings = warnings_in(record.log);
+  const auto is_known = [&](const std::string& said) {  // perhaps with its file before it
+    return std::ranges::any_of(warnings, [&](const auto& line) { return line.ends_with(said); });
+  };
+  for (const BatchStepRecord& step : record.steps) {
+    const auto json = nlohmann::json::parse(step.report, nullptr, false);
+    const auto said = json.find("warnings");
+    if (said == json.end() || !said->is_array()) continue;
+    for (const auto& line : *said)
+      if (line.is_string() && !is_known(line)) warnings.push_back(line);
+  }
+  return warnings;
+}
+
 /// Where a step says what it found: its own --json, or one that is added.
 std::string report_path(const BatchStep& words, const std::string& added) {
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -208,7 +224,7 @@ class ItemRun {
   void complete() {
     record_.log = small_file(staged_ + "/log").value_or("");
     record_.head.repairs = repairs_of(record_.steps);
-    record_.head.warnings = warnings_in(record_.log);
+    record_.head.warnings = warnings_of(record_);
     record_.head.seconds = stopwatch_.seconds();
     record_.head.cpu_seconds = cpu_seconds_so_far();
     record_.head.ended = std::time(nullptr);
