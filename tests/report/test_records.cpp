@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "records/comparison_record.h"
+#include "sphparam/io/fillers.h"
 #include "sphparam/io/sphere_file.h"
 #include "sphparam/records/bake_record.h"
 #include "sphparam/records/distance_record.h"
@@ -133,6 +134,10 @@ TEST_CASE("map_record: the input is what was read, and a shape inside out is war
         "inside out: the volume is negative, and the map a mirror image of the body: "
         "--repair=orientation turns it");
   CHECK(json["warnings"][1] == "another");
+  mark_fillers(source.file, {1, 1, 1, 0, 0, 0, 0, 0});
+  CHECK(shape_warnings(source).size() == 1);
+  mark_fillers(source.file, {1, 1, 1, 1, 0, 0, 0, 0});  // a sheet: no side of it is out
+  CHECK(shape_warnings(source).empty());
 }
 
 TEST_CASE("map_record: the energy of the finished map, over an isometry's, at the λ that is told") {

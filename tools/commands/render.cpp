@@ -180,7 +180,8 @@ void declare_look(Declaration& command, RenderArguments& arguments) {
             "The number a vertex, or a face, that is shown as colours (default: the first of "
             "--data)")
       .text("--range", arguments.range, "MIN,MAX",
-            "The scale of that number (default: its 2nd to its 98th percentile)")
+            "The scale of that number (default: its 2nd to its 98th percentile; all of whole "
+            "numbers)")
       .text("--texture", arguments.texture, "IMAGE",
             "Image for the mesh's texture coordinates, instead of its own")
       .flag("--wire", drawing.wireframe, "The edges of the triangles")

@@ -81,7 +81,7 @@ void tell_stages(const MapOutcome& outcome, Console& console) {
     if (std::find(told.begin(), told.end(), note) == told.end()) console.detail("  note: " + note);
   tell_repairs(outcome.source, console);
   // What looks wrong on the map is told unasked.
-  for (const std::string& warning : shape_warnings(outcome.source.inspection))
+  for (const std::string& warning : shape_warnings(outcome.source))
     console.warning(warning);
   for (const MeshDefect& defect : outcome.source.inspection.defects)
     if (defect.kind != DefectKind::InsideOut) console.detail("  note: " + defect.message);
@@ -151,7 +151,7 @@ void tell_directions(const MapOutcome& outcome, Console& console) {
   const UprightAxes axes = upright_axes(outcome.source.file);
   if ((outcome.result.radial || outcome.options.align_to) && axes.up != Vector3::UnitZ())
     console.say("  " + name_of_direction(axes.up) + " points up in the file: it is north");
-  const bool inside_out = !shape_warnings(outcome.source.inspection).empty();
+  const bool inside_out = !shape_warnings(outcome.source).empty();
   if (outcome.result.radial && outcome.result.radial->folds > 0 && inside_out)
     console.say("  the faces point inwards: --repair=orientation turns them");
   if (const auto& angle = outcome.result.alignment) {

@@ -102,7 +102,7 @@ void add_comments(Asset& asset, const MeshFile& file) {
 /// Of the mesh itself: its map keeps the sense of the faces and mirrors, so that the sphere looks
 /// outward.
 void tell_facing(const MappedMesh& mapped, ShapeKind shape, std::vector<std::string>& warnings) {
-  if (shape == ShapeKind::Mesh && is_inside_out(mapped.mesh()))
+  if (shape == ShapeKind::Mesh && is_inside_out(mapped))
     warnings.emplace_back(
         "the mesh is inside out: viewers show the inside of its far side, or light it from "
         "behind; --repair=orientation turns it over");

@@ -4,9 +4,11 @@
 #include <numbers>
 
 #include "io/attributes/corner_colours.h"
+#include "mesh/flat_face.h"
 #include "mesh/unit_size.h"
 #include "records/json_parts.h"
 #include "sphparam/io/file_numbers.h"
+#include "sphparam/io/fillers.h"
 #include "sphparam/names.h"
 #include "sphparam/version.h"
 
@@ -177,7 +179,7 @@ Json input_json(const MapRecord& record) {
 }
 
 std::vector<std::string> warnings_of(const MapRecord& record) {
-  std::vector<std::string> warnings = shape_warnings(record.source.inspection);
+  std::vector<std::string> warnings = shape_warnings(record.source);
   const std::vector<std::string>& made = record.result.warnings;
   warnings.insert(warnings.end(), made.begin(), made.end());
   return warnings;
@@ -194,9 +196,10 @@ InputNames input_names(const MeshFile& file) {
   return names;
 }
 
-std::vector<std::string> shape_warnings(const MeshInspection& inspection) {
+std::vector<std::string> shape_warnings(const MeshSource& source) {
   std::vector<std::string> warnings;
-  for (const MeshDefect& defect : inspection.defects)
+  if (is_sheet(source.file.mesh, fillers_of(source.file))) return warnings;
+  for (const MeshDefect& defect : source.inspection.defects)
     if (defect.kind == DefectKind::InsideOut)
       warnings.push_back(defect.message +
                          ", and the map a mirror image of the body: --repair=orientation turns it");

@@ -19,8 +19,8 @@ struct InputNames {
 };
 InputNames input_names(const MeshFile& file);
 
-/// What looks wrong on any map of a mesh: it is inside out.
-std::vector<std::string> shape_warnings(const MeshInspection& inspection);
+/// What looks wrong on any map of a mesh: it is inside out, and no sheet, whose holes are kept.
+std::vector<std::string> shape_warnings(const MeshSource& source);
 
 /// A map and how it came about. References are to values that outlive the record.
 struct MapRecord {
