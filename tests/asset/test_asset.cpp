@@ -122,6 +122,19 @@ TEST_CASE("whole surface: options outside their domains, and no mesh at all, are
   CHECK(whole_surface(file_alone).by == WholeBy::Itself);
 }
 
+TEST_CASE("remake asset: one that is inside out stays so, which is told with what turns it") {
+  TriangleMesh turned = icosphere(1);
+  turned.triangles.col(0).swap(turned.triangles.col(1));
+  RemakeOptions options{.whole = coarse(), .width = 32};
+  options.page = false;
+  PendingFiles files;
+  const RemadeAsset made = remake_asset(source_of(std::move(turned)), "", options, files);
+  REQUIRE_FALSE(made.warnings.empty());
+  for (const std::string& warning : made.warnings)
+    CHECK_THAT(warning, Catch::StartsWith("the mesh is inside out: ") &&
+                            Catch::EndsWith("; `sphparam repair` turns it over"));
+}
+
 TEST_CASE("remake asset: what is done last is judged first") {
   const auto complaint = [](RemakeOptions options) -> std::string {
     bool worked = false;

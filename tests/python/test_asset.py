@@ -129,6 +129,12 @@ def test_an_asset_without_normals_has_hard_edges_where_they_are_asked_for(tmp_pa
     for crease, hard in ((None, False), (30, True)):
         made = sp.asset(path, tmp_path / "out", size=16, page=False, crease=crease)
         assert (made.map.mesh.corner_normals is not None) == hard and made.warnings == []
+    with pytest.raises(ValueError, match="crease: 0 to 180 degrees are needed"):
+        sp.asset(path, tmp_path / "none", size=16, crease=-1)
+    turned = write_obj(tmp_path / "turned.obj", vertices, sp.read(path).faces[:, ::-1])
+    with pytest.warns(sp.LossWarning, match="inside out"):
+        told = sp.asset(turned, tmp_path / "turned", size=16, page=False).warnings
+    assert any("inside out" in line for line in told) and not any("--" in line for line in told)
     sp.write(tmp_path / "own.ply", vertices, sp.read(path).faces, values={"normal": vertices - 0.5})
     with pytest.warns(sp.LossWarning, match="normals of its own"):
         assert "normals of its own" in sp.asset(tmp_path / "own.ply", tmp_path / "own", size=16, page=False, crease=30).warnings[-1]

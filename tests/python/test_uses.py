@@ -284,6 +284,8 @@ def test_a_map_that_is_there_gets_hard_edges(tmp_path):
     assert smooth.mesh.corner_normals is None
     with pytest.raises(TypeError, match="degrees: a number"):
         smooth.creased("much")
+    with pytest.raises(ValueError, match="degrees: 0 to 180 degrees are needed, not 181"):
+        smooth.creased(181)
     quads = smooth.remesh("cube:4")
     assert [list(p) for p in quads.creased(20).polygons] == [list(p) for p in quads.polygons]
 

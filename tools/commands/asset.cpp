@@ -107,20 +107,24 @@ RemadeAsset remade(const MeshSource& asset, const std::string& folder,
   throw ReadError(display_name(asset.path), error.defects().front().message);
 }
 
+/// Before the record is written, which says so too.
+void warn_of(const RemadeAsset& made, Session& session) {
+  session.warn(made.warnings);
+  if (made.viewer_is_missing)
+    session.console.warning("this build has no 3D viewer: the page has pictures instead");
+}
+
 void tell(const RemadeAsset& made, const std::string& folder, TextureFormat textures,
           Session& session) {
   for (const Words* lines : {&made.whole.found, &made.whole.done})
     for (const std::string& line : *lines) session.console.say("  " + line);
   for (const std::string& line : made.whole.details) session.console.detail("  " + line);
-  session.warn(made.warnings);
   if (made.baked.projection)
     session.console.say("  " + line_of(*made.baked.projection, {.source_name = "the asset"}));
   if (made.whole.by == WholeBy::Repair && made.whole.area_kept < 1)
     session.console.say("  with --keep 1 the parts that it dropped stay, and all is wrapped");
   if (made.whole.by == WholeBy::Wrap)
     session.console.detail("  a larger --resolution wraps closer, --faces has more of it");
-  if (made.viewer_is_missing)
-    session.console.warning("this build has no 3D viewer: the page has pictures instead");
   for (const auto& [stage, seconds] : made.seconds)
     session.console.detail("  " + stage + ": " + short_number(seconds) + " s");
   session.console.say(
@@ -167,6 +171,7 @@ int run_asset(AssetArguments& arguments) {
   tell_losses(asset, session.console);
   crease(asset.file, arguments.input, arguments.crease, session);
   const RemadeAsset made = remade(asset, folder.path(), arguments, session);
+  warn_of(made, session);
   session.add_report([&] { return to_json(asset, made); });
   session.publish();
   tell(made, folder.path(), arguments.options.textures, session);

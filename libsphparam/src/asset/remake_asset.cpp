@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <iterator>
 #include <map>
+#include <string_view>
 
 #include "asset/asset_page.h"
 #include "asset/soup.h"
@@ -38,6 +39,14 @@ void require_domain(const RemakeOptions& options) {
   require_bakeable({}, {.width = options.width, .samples = options.samples});
   require_one_of("textures", options.textures, TextureFormat::WebpLossless);
   require_between("webp_quality", options.webp_quality, 1, 100);
+}
+
+/// A warning as it is of use here, where no option mends a surface that is one already.
+std::string advice_for_assets(std::string warning) {
+  constexpr std::string_view option = "--repair=orientation turns";
+  if (const std::size_t at = warning.find(option); at != std::string::npos)
+    warning.replace(at, option.size(), "`sphparam repair` turns");
+  return warning;
 }
 
 constexpr double walls_beyond = 2.5;  // voxels from the asset, which a wrap is one away from
@@ -179,8 +188,9 @@ class Remaker {
   /// Each once: stages tell the same of one mesh.
   void append(const std::vector<std::string>& warnings) {
     for (const std::string& warning : warnings)
-      if (std::ranges::find(remade_.warnings, warning) == remade_.warnings.end())
-        remade_.warnings.push_back(warning);
+      if (const std::string line = advice_for_assets(warning);
+          std::ranges::find(remade_.warnings, line) == remade_.warnings.end())
+        remade_.warnings.push_back(line);
   }
 
   const MeshSource& asset_;

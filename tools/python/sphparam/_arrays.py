@@ -129,6 +129,14 @@ def _index(number: Any, name: str, wanted: str) -> int:
     raise TypeError(f"{name}: {wanted}, not {number!r}")
 
 
+def degrees(thing: Any, name: str) -> float:
+    """An angle between faces."""
+    angle = real(thing, name)
+    if not 0 <= angle <= 180:
+        raise ValueError(f"{name}: 0 to 180 degrees are needed, not {angle}")
+    return angle
+
+
 def flag(thing: Any, name: str) -> bool:
     """True or False, of Python or NumPy, and nothing that could be taken for one."""
     if not isinstance(thing, bool) and not isinstance(thing, np.bool_):

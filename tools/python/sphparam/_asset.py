@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Dict, List, NamedTuple, Optional
 
 from . import _arrays, _core
 from ._attributes import document
+from ._errors import as_typed_here
 from ._losses import tell
 from ._mesh import existing, path_of
 from ._progress import Progress, told
@@ -149,7 +150,7 @@ def asset(
         "resolution": _arrays.whole(resolution, "resolution", 8, 2000),
         "least_kept": _arrays.real(least_kept, "least_kept"),
         "compress": _arrays.flag(compress, "compress"),
-        "crease": None if crease is None else _arrays.real(crease, "crease"),
+        "crease": None if crease is None else _arrays.degrees(crease, "crease"),
         "textures": _arrays.text(textures, "textures"),
         "webp_quality": _arrays.whole(webp_quality, "webp_quality", 1, 100),
         "up": as_direction(up, "up"),
@@ -159,6 +160,7 @@ def asset(
     }
     with _Folder(_core.asset_folder(name) if folder is None else path_of(folder)) as place, told(progress) as report:
         made = _core.asset(name, place, options, report)
+    made["warnings"] = [as_typed_here(warning) for warning in made["warnings"]]
     tell([*made["losses"], *made["warnings"]])
     shares = made.pop("projection")
     found = SphereMap._of(made.pop("map"))

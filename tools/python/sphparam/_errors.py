@@ -19,6 +19,7 @@ _typed_here = {
     "a finer --grid": "a finer grid=",
     "; --keep-holes closes": "; repair=dict(keep_holes=True) closes",
     "--repair=orientation turns it over": "repair=True where it is mapped turns it over",
+    "`sphparam repair` turns it over": "repair(read(path)) turns it over, save makes a file of it",
     "`sphparam bake --map normal-tangent` makes it": 'bake("normal-tangent") makes it',
     "`sphparam bake --normal-y gl` makes it so": "without normal_y_down it is baked so",
 }

@@ -302,7 +302,7 @@ class MapImages(MapFacts):
 
         ``view``: ``"mesh"``, ``"sphere"``, ``"both"``. ``colours``: ``"own"``, textures, else colours of vertices or
         materials, else directions; ``"plain"``, ``"normals"``, ``"checker"``, ``"area"``, ``"angle"``. ``texture``: an
-        image for the mesh's texture coordinates, instead of its own. ``scalar``: a number a vertex, by its name, shown
+        image for the mesh's texture coordinates, instead of its own. ``scalar``: a number a vertex or a face, by its name, shown
         as colours; ``range``: their scale, the smaller one first; None: its 2nd to its 98th percentile. ``size``: pixels, 16 to 16384. ``eye``:
         the direction to look from; ``up``, ``front``: as of :meth:`export`. ``wireframe``, ``graticule``:
         lines; ``occlusion``: darker where little light comes; ``legend``: below colours

@@ -153,7 +153,7 @@ class Mesh:
         comes back as it is, with a warning. Where vertices have copies, :func:`repair` goes first.
         """
         self._require_sound()
-        made = _core.creased(self._source, _arrays.real(degrees, "degrees"))
+        made = _core.creased(self._source, _arrays.degrees(degrees, "degrees"))
         if made is None:
             tell([has_own_normals(path_told(self.path))])
             return self

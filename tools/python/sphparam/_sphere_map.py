@@ -41,7 +41,7 @@ class SphereMap(MapDirections, MapImages, MapGrids, MapFiles):
         Of how it came about it knows what ``provenance`` says. Where the mesh has normals it comes back as it is, with
         a warning.
         """
-        made = _core.creased_map(self._mapped, _arrays.real(degrees, "degrees"), _arrays.threads(threads))
+        made = _core.creased_map(self._mapped, _arrays.degrees(degrees, "degrees"), _arrays.threads(threads))
         if made is None:
             tell([has_own_normals(self.name)])
             return self
