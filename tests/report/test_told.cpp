@@ -19,6 +19,12 @@ TEST_CASE("told: a record says what was told beside it, each thing once") {
   CHECK(json["area"].dump() == "0.1");
 }
 
+TEST_CASE("told: a line that only ends as another does is another") {
+  const Json json = Json::parse(with_told(R"({"warnings": ["flat", ""]})",
+                                          {.warnings = {"not flat", "egg.obj: flat", "odd"}}));
+  CHECK(json["warnings"] == Json::parse(R"(["flat", "", "not flat", "odd"])"));
+}
+
 TEST_CASE(
     "told: nothing is three empty lists, and bytes of file names that are no text do not matter") {
   CHECK(Json::parse(with_told("{}", {})) ==

@@ -12,7 +12,7 @@ namespace {
 /// People are told of which file, "egg.obj: inside out"; a record of one file says it once.
 bool is_said(const Json& said, const std::string& line) {
   return std::ranges::any_of(said, [&](const Json& own) {
-    return own.is_string() && line.ends_with(own.get_ref<const std::string&>());
+    return own == line || (own.is_string() && line.ends_with(": " + own.get<std::string>()));
   });
 }
 
