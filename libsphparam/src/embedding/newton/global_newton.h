@@ -19,7 +19,7 @@ namespace sphparam {
 ///
 /// Memory, bytes a triangle: 80 always, of which 40 for the rest triangles and 16 for the image;
 /// in a step 120 for the Hessian, 110 for the multigrid, 40 for the solver's vectors; in sweeps 55
-/// for the rings instead of the Hessian and the vectors.
+/// for the rings instead of the Hessian and the vectors; on other than large meshes the rings stay.
 class GlobalNewton {
  public:
   /// Keeps nothing of what it is given. Requires: every determinant certain to be positive.
