@@ -1,7 +1,7 @@
 #include <array>
 #include <catch2/catch.hpp>
 
-#include "bake/coverage.h"
+#include "bake/texels/coverage.h"
 
 using namespace sphparam;
 

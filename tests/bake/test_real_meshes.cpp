@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
-#include "bake/texel_owners.h"
+#include "bake/texels/texel_owners.h"
 #include "io/polygons/welding.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/parameterize.h"

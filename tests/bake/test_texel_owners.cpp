@@ -4,7 +4,7 @@
 #include <numbers>
 #include <random>
 
-#include "bake/texel_owners.h"
+#include "bake/texels/texel_owners.h"
 #include "sphparam/parameterize.h"
 #include "support/test_meshes.h"
 

@@ -5,7 +5,7 @@
 
 #include "io/attributes/corner_colours.h"
 #include "io/polygons/welding.h"
-#include "io/repaired_file.h"
+#include "io/repair/repaired_file.h"
 #include "sphparam/io/fillers.h"
 #include "sphparam/io/loop_file.h"
 #include "sphparam/io/shared_places.h"

@@ -9,7 +9,7 @@
 #include "mesh/handles/loop_side.h"
 #include "mesh/handles/short_loops.h"
 #include "mesh/handles/surface_cells.h"
-#include "mesh/repair_state.h"
+#include "mesh/repair/repair_state.h"
 #include "sphparam/mesh/mesh_repair.h"
 #include "sphparam/mesh/topology.h"
 #include "support/joined.h"

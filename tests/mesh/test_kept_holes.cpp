@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "mesh/paired_faces.h"
+#include "mesh/repair/paired_faces.h"
 #include "sphparam/mesh/mesh_repair.h"
 #include "sphparam/mesh/topology.h"
 #include "support/test_meshes.h"

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "mesh/weld_shares.h"
+#include "mesh/repair/weld_shares.h"
 #include "support/joined.h"
 #include "support/shaken.h"
 #include "support/test_meshes.h"

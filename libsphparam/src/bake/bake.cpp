@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include "bake/baked_chart.h"
-#include "bake/calm_walls.h"
 #include "bake/choose_target.h"
 #include "bake/field_registry.h"
 #include "bake/georeference/georeference.h"
@@ -16,6 +15,7 @@
 #include "bake/inside_out.h"
 #include "bake/make_scene.h"
 #include "bake/projected_surface.h"
+#include "bake/texels/calm_walls.h"
 #include "bake/write_images.h"
 #include "io/attributes/array_lengths.h"
 #include "io/attributes/one_material.h"

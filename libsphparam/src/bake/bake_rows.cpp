@@ -7,10 +7,10 @@
 #include <algorithm>
 
 #include "bake/bake_progress.h"
-#include "bake/calm_walls.h"
-#include "bake/crowded_texels.h"
 #include "bake/image_level.h"
 #include "bake/sample_seed.h"
+#include "bake/texels/calm_walls.h"
+#include "bake/texels/crowded_texels.h"
 #include "sphparam/parallel.h"
 #include "srgb_curves.h"
 

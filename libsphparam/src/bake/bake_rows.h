@@ -5,7 +5,7 @@
 
 #include "bake/bake_scene.h"
 #include "bake/surface_field.h"
-#include "bake/texel_points.h"
+#include "bake/texels/texel_points.h"
 #include "sphparam/progress.h"
 
 namespace sphparam {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "bake/coverage.h"
 #include "bake/field_registry.h"
 #include "bake/fields/attribute_fields.h"
+#include "bake/texels/coverage.h"
 #include "mesh/box.h"
 #include "number_text.h"
 #include "sphparam/io/paths.h"

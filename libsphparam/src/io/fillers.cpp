@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "io/mesh_part.h"
+#include "io/repair/mesh_part.h"
 
 namespace sphparam {
 

@@ -5,8 +5,8 @@
 
 #include <memory>
 
-#include "bake/calm_walls.h"
 #include "bake/fields/source_normal.h"
+#include "bake/texels/calm_walls.h"
 #include "sphparam/chart/tangent_frame.h"
 
 namespace sphparam {

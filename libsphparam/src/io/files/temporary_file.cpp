@@ -12,7 +12,7 @@
 #include <random>
 #include <utility>
 
-#include "io/handed_on.h"
+#include "io/files/handed_on.h"
 #include "sphparam/io/no_room_error.h"
 
 // Of a file under a temporary name, those who live hold a shared lock, and who finds it takes an

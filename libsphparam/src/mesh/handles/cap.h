@@ -1,7 +1,7 @@
 #pragma once
 
 #include "mesh/handles/surface_cells.h"
-#include "mesh/rim_filling.h"
+#include "mesh/repair/rim_filling.h"
 
 namespace sphparam {
 

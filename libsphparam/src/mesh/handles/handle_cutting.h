@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "mesh/repair_state.h"
+#include "mesh/repair/repair_state.h"
 #include "sphparam/mesh/topology.h"
 
 namespace sphparam {

@@ -9,7 +9,7 @@
 #include "mesh/handles/handle_cutting.h"
 #include "mesh/handles/loop_side.h"
 #include "mesh/handles/short_loops.h"
-#include "mesh/repair_state.h"
+#include "mesh/repair/repair_state.h"
 #include "mesh/triangle_geometry.h"
 #include "mesh/union_find.h"
 #include "sphparam/parallel.h"

@@ -1,4 +1,4 @@
-#include "bake/calm_walls.h"
+#include "bake/texels/calm_walls.h"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "mesh/repair_state.h"
+#include "mesh/repair/repair_state.h"
 
 namespace sphparam {
 

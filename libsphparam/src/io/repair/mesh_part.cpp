@@ -1,4 +1,4 @@
-#include "io/mesh_part.h"
+#include "io/repair/mesh_part.h"
 
 #include <numeric>
 #include <optional>

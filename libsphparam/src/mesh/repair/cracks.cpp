@@ -10,7 +10,7 @@
 
 #include "mesh/box.h"
 #include "mesh/face_sides.h"
-#include "mesh/repair_state.h"
+#include "mesh/repair/repair_state.h"
 
 // Only what lies on boundaries is looked at: vertices of edges with one face. Where welding is
 // asked for, each becomes one with the vertex of lowest id within the tolerance, unless a face has

@@ -5,7 +5,7 @@
 #include <tuple>
 #include <utility>
 
-#include "io/mesh_part.h"
+#include "io/repair/mesh_part.h"
 #include "mesh/flat_face.h"
 #include "mesh/triangle_geometry.h"
 #include "mesh/union_find.h"

@@ -1,5 +1,5 @@
 #include "mesh/face_sides.h"
-#include "mesh/repair_state.h"
+#include "mesh/repair/repair_state.h"
 
 // Patches are walked through the edges that have two faces: across each, the neighbour must run the
 // other way. The majority of a patch stays as it is. A patch where the walk contradicts itself is

@@ -1,4 +1,4 @@
-#include "mesh/repair_state.h"
+#include "mesh/repair/repair_state.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include "mesh/flat_face.h"
 #include "mesh/index_range.h"
-#include "mesh/repair_state.h"
+#include "mesh/repair/repair_state.h"
 #include "mesh/triangle_geometry.h"
 #include "number_text.h"
 #include "option_domain.h"

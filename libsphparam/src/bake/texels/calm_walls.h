@@ -6,7 +6,7 @@
 
 #include "bake/bake_scene.h"
 #include "bake/surface_field.h"
-#include "bake/texel_owners.h"
+#include "bake/texels/texel_owners.h"
 
 namespace sphparam {
 

@@ -1,4 +1,4 @@
-#include "bake/texel_owners.h"
+#include "bake/texels/texel_owners.h"
 
 #include <algorithm>
 #include <cmath>

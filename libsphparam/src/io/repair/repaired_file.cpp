@@ -1,4 +1,4 @@
-#include "io/repaired_file.h"
+#include "io/repair/repaired_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "io/attributes/patched_texture.h"
 #include "io/attributes/turned_normals.h"
 #include "io/attributes/weightiest_label.h"
-#include "io/mesh_part.h"
+#include "io/repair/mesh_part.h"
 #include "sphparam/io/fillers.h"
 
 // Every table is gathered by the ids that the repair returned. The ids of the file are a property

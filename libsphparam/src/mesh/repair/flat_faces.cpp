@@ -4,8 +4,8 @@
 
 #include "mesh/box.h"
 #include "mesh/flat_face.h"
-#include "mesh/paired_faces.h"
-#include "mesh/repair_state.h"
+#include "mesh/repair/paired_faces.h"
+#include "mesh/repair/repair_state.h"
 #include "mesh/unit_size.h"
 #include "sphparam/mesh/topology.h"
 

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "mesh/face_sides.h"
-#include "mesh/paired_faces.h"
-#include "mesh/repair_state.h"
+#include "mesh/repair/paired_faces.h"
+#include "mesh/repair/repair_state.h"
 #include "mesh/union_find.h"
 
 // Sides are joined edge by edge; corners beside joined sides are one fan. About an edge of several

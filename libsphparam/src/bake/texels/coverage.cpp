@@ -1,4 +1,4 @@
-#include "bake/coverage.h"
+#include "bake/texels/coverage.h"
 
 #include <algorithm>
 #include <memory>

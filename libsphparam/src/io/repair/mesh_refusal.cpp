@@ -10,11 +10,11 @@
 #include <string_view>
 #include <utility>
 
-#include "io/mesh_part.h"
-#include "io/repaired_file.h"
+#include "io/repair/mesh_part.h"
+#include "io/repair/repaired_file.h"
 #include "mesh/defect_places.h"
+#include "mesh/repair/weld_shares.h"
 #include "mesh/triangle_geometry.h"
-#include "mesh/weld_shares.h"
 #include "number_text.h"
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/io/losses.h"

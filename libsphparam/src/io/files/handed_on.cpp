@@ -1,4 +1,4 @@
-#include "io/handed_on.h"
+#include "io/files/handed_on.h"
 
 #include <sys/xattr.h>
 #include <unistd.h>

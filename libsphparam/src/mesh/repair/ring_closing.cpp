@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "mesh/rim_filling.h"
+#include "mesh/repair/rim_filling.h"
 
 // A ring's vertices are means of neighbours of the ring before, drawn towards the middle of the
 // rim. Spaces double from ring to ring, and so do the steps inwards: with radius 1 at the rim and K

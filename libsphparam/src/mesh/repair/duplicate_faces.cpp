@@ -9,7 +9,7 @@
 #include <span>
 
 #include "mesh/face_sides.h"
-#include "mesh/repair_state.h"
+#include "mesh/repair/repair_state.h"
 #include "mesh/union_find.h"
 
 namespace sphparam {

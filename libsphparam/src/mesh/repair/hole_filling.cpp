@@ -3,7 +3,7 @@
 #include <queue>
 
 #include "mesh/face_sides.h"
-#include "mesh/rim_filling.h"
+#include "mesh/repair/rim_filling.h"
 
 // A hole is the cycle of boundary sides, run through backwards. Its ears are cut off, cheapest
 // first: an ear that does not turn against the hole's mean normal (Newell's) before one that does,

@@ -1,4 +1,4 @@
-#include "bake/texel_points.h"
+#include "bake/texels/texel_points.h"
 
 #include <numbers>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "mesh/paired_faces.h"
+#include "mesh/repair/paired_faces.h"
 
 #include <algorithm>
 

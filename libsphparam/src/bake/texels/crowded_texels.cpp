@@ -1,14 +1,14 @@
 // Triangles that are small against a texel mark the texels they touch; then all triangles are
 // clipped to those texels.
 
-#include "bake/crowded_texels.h"
+#include "bake/texels/crowded_texels.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "bake/calm_walls.h"
 #include "bake/chart_piece.h"
+#include "bake/texels/calm_walls.h"
 
 namespace sphparam {
 namespace {

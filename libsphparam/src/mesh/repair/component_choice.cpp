@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "mesh/repair_state.h"
+#include "mesh/repair/repair_state.h"
 #include "mesh/triangle_geometry.h"
 #include "mesh/union_find.h"
 

@@ -1,4 +1,4 @@
-#include "mesh/repair_state.h"
+#include "mesh/repair/repair_state.h"
 
 // A vertex without a place takes its faces with it; the hole is filled by the steps that follow.
 // What is left gets its unit box anew, since no box holds NaN. These faces count among those that

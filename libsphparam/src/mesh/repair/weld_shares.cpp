@@ -1,4 +1,4 @@
-#include "mesh/weld_shares.h"
+#include "mesh/repair/weld_shares.h"
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "mesh/repair_state.h"
+#include "mesh/repair/repair_state.h"
 
 namespace sphparam {
 

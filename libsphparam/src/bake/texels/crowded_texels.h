@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bake/bake_scene.h"
-#include "bake/texel_points.h"
+#include "bake/texels/texel_points.h"
 
 namespace sphparam {
 
