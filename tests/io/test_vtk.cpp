@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "io/files/base64.h"
-#include "io/formats/ply_writer.h"
+#include "io/formats/ply/ply_writer.h"
 #include "io/formats/vtk/legacy_vtk_reader.h"
 #include "io/formats/vtk/legacy_vtk_writer.h"
 #include "io/formats/vtk/xml_vtk_reader.h"

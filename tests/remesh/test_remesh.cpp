@@ -3,7 +3,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "io/formats/polygon_ply.h"
+#include "io/formats/ply/polygon_ply.h"
 #include "sphparam/io/fillers.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/sphere_file.h"

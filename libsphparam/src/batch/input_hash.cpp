@@ -21,9 +21,9 @@
 #include "io/formats/gltf/gltf_container.h"
 #include "io/formats/gltf/gltf_files.h"
 #include "io/formats/gltf/gltf_reader.h"
-#include "io/formats/obj_materials.h"
-#include "io/formats/obj_reader.h"
-#include "io/formats/ply_reader.h"
+#include "io/formats/obj/obj_materials.h"
+#include "io/formats/obj/obj_reader.h"
+#include "io/formats/ply/ply_reader.h"
 #include "io/formats/scene_reader.h"
 #include "sphparam/io/paths.h"
 

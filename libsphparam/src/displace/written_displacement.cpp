@@ -13,7 +13,7 @@
 #include "displace/displacement.h"
 #include "displace/displacement_file.h"
 #include "displace/rebuild.h"
-#include "io/formats/polygon_ply.h"
+#include "io/formats/ply/polygon_ply.h"
 #include "option_domain.h"
 #include "remesh/distance_on_grid.h"
 #include "remesh/image_file.h"

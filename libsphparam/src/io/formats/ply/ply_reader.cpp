@@ -1,4 +1,4 @@
-#include "io/formats/ply_reader.h"
+#include "io/formats/ply/ply_reader.h"
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,7 @@
 #include "io/attributes/texture_pages.h"
 #include "io/files/non_finite_advice.h"
 #include "io/files/text_scanner.h"
-#include "io/formats/ply_header.h"
+#include "io/formats/ply/ply_header.h"
 #include "number_text.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/polygons.h"

@@ -1,4 +1,4 @@
-#include "io/formats/ply_header.h"
+#include "io/formats/ply/ply_header.h"
 
 #include <algorithm>
 #include <charconv>

@@ -1,4 +1,4 @@
-#include "io/formats/obj_writer.h"
+#include "io/formats/obj/obj_writer.h"
 
 #include <array>
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 #include "io/attributes/appearance.h"
 #include "io/files/text_buffer.h"
-#include "io/formats/obj_materials.h"
+#include "io/formats/obj/obj_materials.h"
 #include "io/polygons/distinct_rows.h"
 #include "sphparam/io/polygons.h"
 

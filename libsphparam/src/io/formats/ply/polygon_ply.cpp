@@ -1,6 +1,6 @@
 // Faces of several degrees have records of several lengths, which are appended one by one.
 
-#include "io/formats/polygon_ply.h"
+#include "io/formats/ply/polygon_ply.h"
 
 #include <algorithm>
 #include <bit>
@@ -8,7 +8,7 @@
 
 #include "io/files/byte_reader.h"
 #include "io/formats/lossless_type.h"
-#include "io/formats/ply_writer.h"
+#include "io/formats/ply/ply_writer.h"
 
 namespace sphparam {
 

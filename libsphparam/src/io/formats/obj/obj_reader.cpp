@@ -1,4 +1,4 @@
-#include "io/formats/obj_reader.h"
+#include "io/formats/obj/obj_reader.h"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 #include "io/attributes/named_file.h"
 #include "io/attributes/remarks.h"
 #include "io/files/text_scanner.h"
-#include "io/formats/obj_materials.h"
+#include "io/formats/obj/obj_materials.h"
 #include "number_text.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/polygons.h"

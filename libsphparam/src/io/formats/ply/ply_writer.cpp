@@ -1,11 +1,11 @@
-#include "io/formats/ply_writer.h"
+#include "io/formats/ply/ply_writer.h"
 
 #include <algorithm>
 #include <bit>
 #include <cstring>
 
 #include "io/formats/lossless_type.h"
-#include "io/formats/ply_reader.h"
+#include "io/formats/ply/ply_reader.h"
 
 // The size of every record is known beforehand, so the buffer is made once and filled column by
 // column.

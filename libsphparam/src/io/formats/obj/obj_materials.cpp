@@ -1,4 +1,4 @@
-#include "io/formats/obj_materials.h"
+#include "io/formats/obj/obj_materials.h"
 
 #include <algorithm>
 #include <charconv>
