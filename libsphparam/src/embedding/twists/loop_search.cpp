@@ -25,16 +25,26 @@ size_t at(int i) { return static_cast<size_t>(i); }
 
 LoopSearch::LoopSearch(const Topology& topology)
     : topology_(topology),
-      depth_(at(topology.vertex_count()), -1),
-      parent_(depth_.size(), -1),
-      branch_(depth_.size(), -1),
-      side_(depth_.size(), 0),
-      plain_(depth_.size(), 0),
-      valence_(depth_.size(), 0) {
-  for (Halfedge h = 0; h < topology.halfedge_count(); ++h) ++valence_[at(topology.origin(h))];
+      first_neighbour_(1, 0),
+      reached_(at(topology.vertex_count())),
+      side_(reached_.size(), 0),
+      plain_(reached_.size(), 0) {
+  first_neighbour_.reserve(reached_.size() + 1);
+  neighbours_.reserve(at(topology.halfedge_count()));
+  for (Vertex v = 0; v < topology.vertex_count(); ++v) {
+    topology.for_each_outgoing(v, [&](Halfedge h) { neighbours_.push_back(topology.target(h)); });
+    first_neighbour_.push_back(static_cast<int>(neighbours_.size()));
+  }
 }
 
-bool LoopSearch::is_hub(Vertex v) const { return valence_[at(v)] > most_valence; }
+std::span<const Vertex> LoopSearch::neighbours(Vertex v) const {
+  const int first = first_neighbour_[at(v)], last = first_neighbour_[at(v) + 1];
+  return {neighbours_.data() + first, at(last - first)};
+}
+
+bool LoopSearch::is_hub(Vertex v) const {
+  return first_neighbour_[at(v) + 1] - first_neighbour_[at(v)] > most_valence;
+}
 
 VertexLoop LoopSearch::through(Vertex v) {
   if (plain_[at(v)]) return {};
@@ -44,7 +54,7 @@ VertexLoop LoopSearch::through(Vertex v) {
     mark_plain();
   else
     found = shortest_loop_in_ball();
-  for (const Vertex w : ball_) depth_[at(w)] = -1;
+  for (const Vertex w : ball_) reached_[at(w)].depth = -1;
   return found;
 }
 
@@ -52,14 +62,12 @@ VertexLoop LoopSearch::through(Vertex v) {
 /// grow as on a plain surface.
 void LoopSearch::grow_ball(Vertex v) {
   ball_.assign(1, v);
-  depth_[at(v)] = 0;
+  reached_[at(v)].depth = 0;
   layer_ends_.clear();
+  hub_at_rim_ = is_hub(v);
   bool plain = true;
-  for (size_t i = 0;;) {
+  for (size_t i = 0; !hub_at_rim_;) {
     const size_t end = ball_.size();
-    if (std::any_of(ball_.begin() + static_cast<long>(i), ball_.end(),
-                    [&](Vertex w) { return is_hub(w); }))
-      return;
     layer_ends_.push_back(end);
     plain = plain && static_cast<int>(end - i) >= plain_growth * reach();
     if (reach() >= (plain ? plain_reach : largest_radius)) return;
@@ -68,14 +76,14 @@ void LoopSearch::grow_ball(Vertex v) {
 }
 
 void LoopSearch::add_neighbours(Vertex v) {
-  topology_.for_each_outgoing(v, [&](Halfedge h) {
-    const Vertex w = topology_.target(h);
-    if (depth_[at(w)] >= 0) return;
-    depth_[at(w)] = depth_[at(v)] + 1;
-    parent_[at(w)] = v;
-    branch_[at(w)] = depth_[at(v)] == 0 ? w : branch_[at(v)];
+  const Reached from = reached_[at(v)];
+  for (const Vertex w : neighbours(v)) {
+    Reached& to = reached_[at(w)];
+    if (to.depth >= 0) continue;
+    to = {from.depth + 1, v, from.depth == 0 ? w : from.branch};
     ball_.push_back(w);
-  });
+    hub_at_rim_ |= is_hub(w);
+  }
 }
 
 /// Edges from the middle of the ball to the last whole layer.
@@ -90,15 +98,18 @@ void LoopSearch::mark_plain() {
 
 /// As far as this radius: by the numbers of its vertices, edges and triangles.
 bool LoopSearch::ball_is_disk(int radius) const {
-  const auto is_in_ball = [&](Vertex w) { return depth_[at(w)] >= 0 && depth_[at(w)] <= radius; };
+  const auto is_in_ball = [&](Vertex w) { return depth(w) >= 0 && depth(w) <= radius; };
   const size_t count = layer_ends_[at(radius)];
   int edges = 0, corners = 0;
   for (size_t i = 0; i < count; ++i) {
-    topology_.for_each_outgoing(ball_[i], [&](Halfedge h) {
-      if (!is_in_ball(topology_.target(h))) return;
-      ++edges;
-      corners += is_in_ball(topology_.apex(h));
-    });
+    const std::span<const Vertex> around = neighbours(ball_[i]);
+    bool last = is_in_ball(around.back());
+    for (const Vertex w : around) {
+      const bool inside = is_in_ball(w);
+      edges += inside;
+      corners += last && inside;
+      last = inside;
+    }
   }
   return static_cast<int>(count) - edges / 2 + corners / 3 == 1;
 }
@@ -133,8 +144,9 @@ std::vector<std::pair<int, Halfedge>> LoopSearch::closing_edges(int most_edges) 
     const Vertex a = ball_[i];
     topology_.for_each_outgoing(a, [&](Halfedge h) {
       const Vertex b = topology_.target(h);
-      if (depth_[at(a)] < 1 || depth_[at(b)] < 1 || branch_[at(a)] == branch_[at(b)]) return;
-      const int length = depth_[at(a)] + depth_[at(b)] + 1;
+      const Reached &to_a = reached_[at(a)], &to_b = reached_[at(b)];
+      if (to_a.depth < 1 || to_b.depth < 1 || to_a.branch == to_b.branch) return;
+      const int length = to_a.depth + to_b.depth + 1;
       if (length <= most_edges && a < b) closing.emplace_back(length, h);
     });
   }
@@ -144,10 +156,10 @@ std::vector<std::pair<int, Halfedge>> LoopSearch::closing_edges(int most_edges) 
 
 VertexLoop LoopSearch::closed_by(Halfedge h) const {
   VertexLoop loop;
-  for (Vertex a = topology_.origin(h); depth_[at(a)] > 0; a = parent_[at(a)]) loop.push_back(a);
+  for (Vertex a = topology_.origin(h); depth(a) > 0; a = reached_[at(a)].parent) loop.push_back(a);
   loop.push_back(ball_.front());
   std::ranges::reverse(loop);
-  for (Vertex b = topology_.target(h); depth_[at(b)] > 0; b = parent_[at(b)]) loop.push_back(b);
+  for (Vertex b = topology_.target(h); depth(b) > 0; b = reached_[at(b)].parent) loop.push_back(b);
   return loop;
 }
 
@@ -168,7 +180,7 @@ bool LoopSearch::reaches_many(const VertexLoop& loop, bool left) {
   for (size_t i = 0; i < seen.size() && std::ssize(seen) < least; ++i) {
     hub = is_hub(seen[i]);
     if (hub) break;
-    topology_.for_each_outgoing(seen[i], [&](Halfedge h) { enter(topology_.target(h)); });
+    for (const Vertex w : neighbours(seen[i])) enter(w);
   }
   for (const Vertex v : loop) side_[at(v)] = 0;
   for (const Vertex v : seen) side_[at(v)] = 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -41,13 +42,23 @@ class LoopSearch {
   bool goes_round(const VertexLoop& loop);
   bool reaches_many(const VertexLoop& loop, bool left);
 
+  /// How a vertex was reached from the middle of the ball.
+  struct Reached {
+    int depth = -1;  // −1: not in the ball
+    Vertex parent = -1, branch = -1;
+  };
+
+  std::span<const Vertex> neighbours(Vertex v) const;
+  int depth(Vertex v) const { return reached_[static_cast<size_t>(v)].depth; }
+
   const Topology& topology_;
-  std::vector<int> depth_;  // −1: not in the ball
-  std::vector<Vertex> parent_, branch_;
+  std::vector<int> first_neighbour_;
+  std::vector<Vertex> neighbours_;  // of all: half-edges of a mesh at large are far apart in memory
+  std::vector<Reached> reached_;
   std::vector<char> side_;  // 0 between uses
   std::vector<char> plain_;
-  std::vector<int> valence_;
   std::vector<Vertex> ball_;
+  bool hub_at_rim_ = false;
   std::vector<size_t> layer_ends_;  // in the ball, of those without hubs
 };
 
