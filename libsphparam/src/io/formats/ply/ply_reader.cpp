@@ -2,173 +2,25 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cctype>
-#include <cmath>
-#include <cstring>
 #include <limits>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include "io/attributes/other_colours.h"
 #include "io/attributes/texture_pages.h"
-#include "io/files/non_finite_advice.h"
-#include "io/files/text_scanner.h"
-#include "io/formats/ply/ply_header.h"
+#include "io/formats/ply/missing_values.h"
+#include "io/formats/ply/ply_body.h"
+#include "io/formats/ply/ply_layout.h"
 #include "number_text.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/polygons.h"
 
-// A body gives numbers one by one: from a text, one record a line, or from bytes in either order.
-// The elements are read from it in the order of the header by one piece of code for all encodings.
+// The layout says which elements are the mesh. All elements are read in the order of the header, by
+// one piece of code for the bodies of all encodings.
 
 namespace sphparam {
 namespace {
-
-/// Where the body is, for messages.
-struct Record {
-  const PlyElement* element = nullptr;
-  std::int64_t index = 0;
-
-  std::string describe() const {
-    return element->name + " " + std::to_string(index) + " of " + std::to_string(element->count) +
-           " (counted from 0)";
-  }
-};
-
-class TextBody {
- public:
-  TextBody(std::string_view bytes, const PlyHeader& header, const std::string& name,
-           const ReadOptions& options)
-      : scanner_(bytes.substr(header.body_offset), name, options, header.body_line) {
-    scanner_.require_text();
-  }
-
-  void begin(const Record& record) {
-    if (!scanner_.next_filled_line()) scanner_.fail("the file ends before " + record.describe());
-  }
-
-  void end() {
-    if (!scanner_.at_line_end())
-      scanner_.fail("unexpected " + sphparam::quoted(scanner_.peek_word()) +
-                    " at the end of the line");
-  }
-
-  double coordinate(ScalarType type) {
-    if (type == ScalarType::Float64) return scanner_.coordinate();
-    if (type == ScalarType::Float32) return static_cast<double>(scanner_.coordinate32());
-    return real(type);
-  }
-
-  double real(ScalarType type) {
-    if (type == ScalarType::Float64) return scanner_.real();
-    if (type == ScalarType::Float32) return static_cast<double>(scanner_.real32());
-    return static_cast<double>(integer(type));
-  }
-
-  double any_real(ScalarType type) {
-    if (type == ScalarType::Float64) return scanner_.any_real();
-    if (type == ScalarType::Float32) return static_cast<double>(scanner_.any_real32());
-    return static_cast<double>(integer(type));
-  }
-
-  std::int64_t integer(ScalarType type) {
-    const std::int64_t value = scanner_.integer();
-    if (!holds_exactly(type, static_cast<double>(value)))
-      fail(std::to_string(value) + " is no number of type " + std::string(ply_name(type)));
-    return value;
-  }
-
-  // One byte a number at least is still to come: the length needs no check of its own.
-  void skip(ScalarType type, std::int64_t count) {
-    for (std::int64_t i = 0; i < count; ++i) any_real(type);
-  }
-
-  bool has_trailing_data() { return scanner_.next_filled_line(); }
-  [[noreturn]] void fail(const std::string& message) const { scanner_.fail(message); }
-
- private:
-  TextScanner scanner_;
-};
-
-template <std::endian Order>
-class BinaryBody {
- public:
-  BinaryBody(std::string_view bytes, const PlyHeader& header, const std::string& name,
-             const ReadOptions& options)
-      : bytes_(bytes), name_(name), options_(options), offset_(header.body_offset) {}
-
-  void begin(const Record& record) { record_ = record; }
-  void end() {}
-
-  double coordinate(ScalarType type) {
-    return with_scalar(type, [this](auto scalar) {
-      const double value = static_cast<double>(this->template read<decltype(scalar)>());
-      if (!std::isfinite(value) && !options_.non_finite) fail_not_finite(non_finite_advice());
-      return value;
-    });
-  }
-
-  double real(ScalarType type) {
-    return with_scalar(type, [this](auto scalar) {
-      const double value = static_cast<double>(this->template read<decltype(scalar)>());
-      if (!std::isfinite(value)) fail_not_finite();
-      return value;
-    });
-  }
-
-  double any_real(ScalarType type) {
-    return with_scalar(type, [this](auto scalar) {
-      return static_cast<double>(this->template read<decltype(scalar)>());
-    });
-  }
-
-  std::int64_t integer(ScalarType type) {
-    return with_scalar(type, [this](auto scalar) {
-      return static_cast<std::int64_t>(this->template read<decltype(scalar)>());
-    });
-  }
-
-  void skip(ScalarType type, std::int64_t count) {
-    const std::size_t size = size_in_bytes(type);
-    require(static_cast<std::uint64_t>(count) <= (bytes_.size() - offset_) / size);
-    offset_ += static_cast<std::size_t>(count) * size;
-  }
-
-  bool has_trailing_data() const { return offset_ < bytes_.size(); }
-  [[noreturn]] void fail(const std::string& message) const {
-    throw ReadError::at_byte(name_, offset_, message);
-  }
-
- private:
-  [[noreturn]] void fail_not_finite(const std::string& advice = "") const {
-    fail("number is not finite in " + record_.describe() + advice);
-  }
-
-  void require(bool bytes_are_there) const {
-    if (!bytes_are_there) [[unlikely]]
-      fail("the file ends within " + record_.describe());
-  }
-
-  template <class T>
-  T read() {
-    require(sizeof(T) <= bytes_.size() - offset_);
-    char raw[sizeof(T)];
-    std::memcpy(raw, bytes_.data() + offset_, sizeof(T));
-    if constexpr (Order != std::endian::native) std::reverse(raw, raw + sizeof(T));
-    offset_ += sizeof(T);
-    T value;
-    std::memcpy(&value, raw, sizeof(T));
-    return value;
-  }
-
-  std::string_view bytes_;
-  const std::string& name_;
-  const ReadOptions& options_;
-  std::size_t offset_;
-  Record record_;
-};
 
 /// Corner attributes as the polygons' corners have them: `width` numbers each.
 struct CornerList {
@@ -189,18 +41,6 @@ struct CornerList {
   }
 };
 
-/// The properties that are one thing with this one, itself among them.
-std::vector<std::string> components_beside(const std::string& name) {
-  static const std::vector<std::vector<std::string>> vectors = {{"nx", "ny", "nz"},
-                                                                {"red", "green", "blue", "alpha"},
-                                                                {"s", "t"},
-                                                                {"u", "v"},
-                                                                {"texture_u", "texture_v"}};
-  const auto is_component = [&](const auto& names) { return std::ranges::count(names, name) > 0; };
-  const auto found = std::ranges::find_if(vectors, is_component);
-  return found == vectors.end() ? std::vector{name} : *found;
-}
-
 template <class Body>
 class PlyReader {
  public:
@@ -208,17 +48,17 @@ class PlyReader {
             PlyHeader header)
       : header_(std::move(header)),
         body_(bytes, header_, name, options),
+        layout_(find_layout(header_, name, options)),
         name_(name),
         options_(options) {}
 
   MeshFile read() {
-    check_header();
     for (const PlyElement& element : header_.elements) {
-      if (&element == vertex_element_)
+      if (&element == layout_.vertices)
         read_vertices(element);
-      else if (&element == face_element_)
+      else if (&element == layout_.faces)
         read_faces(element);
-      else if (&element == strip_element_)
+      else if (&element == layout_.strips)
         read_strips(element);
       else
         skip_element(element);
@@ -228,50 +68,6 @@ class PlyReader {
   }
 
  private:
-  // --- What the header must say ---
-
-  void check_header() {
-    const long last_line = header_.body_line - 1;
-    vertex_element_ = header_.find("vertex");
-    face_element_ = header_.find("face");
-    if (!vertex_element_) fail_at(last_line, "the header has no element vertex");
-    check_count(*vertex_element_, options_.max_vertices);
-    for (const char* axis : {"x", "y", "z"}) {
-      const PlyProperty* const property = vertex_element_->find(axis);
-      if (!property)
-        fail_at(vertex_element_->line, std::string("vertices have no property ") + axis);
-      if (property->is_list)
-        fail_at(vertex_element_->line, std::string("vertex property ") + axis + " is a list");
-    }
-    // Strips stand in for faces: of a file with both, the faces are the mesh.
-    strip_element_ =
-        face_element_ && face_element_->count > 0 ? nullptr : header_.find("tristrips");
-    if (strip_element_) face_element_ = nullptr;
-    if (face_element_) check_corner_lists(*face_element_, "face");
-    if (strip_element_) check_corner_lists(*strip_element_, "strip");
-  }
-
-  void check_corner_lists(const PlyElement& element, const std::string& what) {
-    check_count(element, options_.max_faces);
-    const PlyProperty* const indices = element.find("vertex_indices");
-    const PlyProperty* const index = element.find("vertex_index");
-    if (indices && index) fail_at(element.line, what + "s have two lists of vertices");
-    index_property_ = indices ? indices : index;
-    if (!index_property_) fail_at(element.line, what + "s have no list vertex_indices");
-    if (!index_property_->is_list)
-      fail_at(element.line, what + " property " + index_property_->name + " is no list");
-    if (is_floating(index_property_->type))
-      fail_at(element.line, "vertex indices of a floating-point type");
-  }
-
-  void check_count(const PlyElement& element, std::int64_t limit) const {
-    constexpr std::int64_t hard_limit = std::numeric_limits<int>::max() / 3;  // ids are ints
-    if (element.count > std::min(limit, hard_limit))
-      fail_at(element.line, std::to_string(element.count) + " records of element " +
-                                sphparam::quoted(element.name) + " are over the limit of " +
-                                std::to_string(std::min(limit, hard_limit)));
-  }
-
   // --- Vertices ---
 
   void read_vertices(const PlyElement& element) {
@@ -296,7 +92,7 @@ class PlyReader {
       read_record(element, targets, v);
       body_.end();
     }
-    leave_out_non_finite(file_.vertex_properties, element);
+    leave_out_non_finite(file_.vertex_properties, true, name_, file_.notes);
   }
 
   static ScalarType position_type(const PlyElement& element) {
@@ -311,7 +107,7 @@ class PlyReader {
   bool is_wanted(const PlyElement& element, const PlyProperty& property) const {
     static constexpr std::array<std::string_view, 6> of_map = {"x", "y", "z", "sx", "sy", "sz"};
     if (!options_.only_map) return true;
-    return &element == vertex_element_ &&
+    return &element == layout_.vertices &&
            std::find(of_map.begin(), of_map.end(), property.name) != of_map.end();
   }
 
@@ -355,34 +151,6 @@ class PlyReader {
     return result;
   }
 
-  static std::ptrdiff_t count_non_finite(const Property& property) {
-    if (!is_floating(property.type)) return 0;
-    const auto is_finite = [](double value) { return std::isfinite(value); };
-    return std::ssize(property.values) - std::ranges::count_if(property.values, is_finite);
-  }
-
-  /// Programs say so of vertices and faces that have none. A map that lacks a ray is no map, and
-  /// must not be taken for a mesh without one; a vector that lacks a component is none either.
-  void leave_out_non_finite(std::vector<Property>& properties, const PlyElement& element) {
-    static constexpr std::array<std::string_view, 3> of_rays = {"sx", "sy", "sz"};
-    std::set<std::string> left_out;
-    for (const Property& property : properties) {
-      const auto missing = count_non_finite(property);
-      if (missing == 0) continue;
-      const std::string what = "property " + sphparam::quoted(property.name) + " of element " +
-                               sphparam::quoted(element.name) + ": it has " +
-                               counted(missing, "value that is", "values that are") + " not finite";
-      if (&element == vertex_element_ && std::ranges::count(of_rays, property.name) > 0)
-        throw ReadError(name_, what);
-      const std::vector<std::string> together = components_beside(property.name);
-      add_loss(file_.notes,
-               what + (together.size() > 1 ? "; " + joined(together) + " go together" : ""));
-      left_out.insert(together.begin(), together.end());
-    }
-    std::erase_if(properties,
-                  [&](const Property& property) { return left_out.contains(property.name); });
-  }
-
   // --- Faces ---
 
   void read_faces(const PlyElement& element) {
@@ -396,19 +164,19 @@ class PlyReader {
     has_normals_ = is_list("normal");
     file_.face_properties = columns(
         element,
-        {index_property_->name, has_texcoords_ ? "texcoord" : "", has_normals_ ? "normal" : ""});
+        {layout_.corners->name, has_texcoords_ ? "texcoord" : "", has_normals_ ? "normal" : ""});
     for (std::int64_t f = 0; f < element.count; ++f) {
       body_.begin({&element, f});
       read_face(element, f);
       body_.end();
     }
-    leave_out_non_finite(file_.face_properties, element);
+    leave_out_non_finite(file_.face_properties, false, name_, file_.notes);
   }
 
   void read_face(const PlyElement& element, std::int64_t f) {
     std::size_t column = 0;
     for (const PlyProperty& property : element.properties) {
-      if (&property == index_property_)
+      if (&property == layout_.corners)
         read_corners(property);
       else if (has_texcoords_ && property.name == "texcoord")
         read_list(property, texcoords_);
@@ -441,9 +209,9 @@ class PlyReader {
   }
 
   int checked_vertex(std::int64_t v, const char* what) const {
-    if (v < 0 || v >= vertex_element_->count)
+    if (v < 0 || v >= layout_.vertices->count)
       body_.fail(std::string(what) + " names vertex " + std::to_string(v) + " of " +
-                 std::to_string(vertex_element_->count) + " (counted from 0)");
+                 std::to_string(layout_.vertices->count) + " (counted from 0)");
     return static_cast<int>(v);
   }
 
@@ -478,13 +246,13 @@ class PlyReader {
 
   void read_strips(const PlyElement& element) {
     for (const PlyProperty& property : element.properties)
-      if (&property != index_property_)
+      if (&property != layout_.corners)
         add_loss(file_.notes,
                  "property " + sphparam::quoted(property.name) + " of triangle strips");
     for (std::int64_t s = 0; s < element.count; ++s) {
       body_.begin({&element, s});
       for (const PlyProperty& property : element.properties)
-        &property == index_property_ ? read_strip(property) : skip(property);
+        &property == layout_.corners ? read_strip(property) : skip(property);
       body_.end();
     }
     if (turns_ > 0)
@@ -572,19 +340,12 @@ class PlyReader {
                             " kept as " + (header_.infos == 1 ? "a comment" : "comments"));
   }
 
-  [[noreturn]] void fail_at(long line, const std::string& message) const {
-    throw ReadError::at_line(name_, line, message);
-  }
-
   PlyHeader header_;
   Body body_;
+  const PlyLayout layout_;
   const std::string& name_;
   const ReadOptions& options_;
-  const PlyElement* vertex_element_ = nullptr;
-  const PlyElement* face_element_ = nullptr;
-  const PlyElement* strip_element_ = nullptr;
-  const PlyProperty* index_property_ = nullptr;  // of faces, or of the strips in their stead
-  long turns_ = 0;                               // triangles of strips that name a vertex twice
+  long turns_ = 0;  // triangles of strips that name a vertex twice
 
   Polygons polygons_;
   bool has_texcoords_ = false, has_normals_ = false;
@@ -608,15 +369,15 @@ MeshFile read_in_encoding(std::string_view bytes, const std::string& name,
   PlyHeader header = parse_ply_header(bytes, name, options);
   switch (header.encoding) {
     case PlyEncoding::Ascii:
-      return read_body<TextBody>(bytes, name, options, std::move(header), "PLY ASCII");
+      return read_body<PlyTextBody>(bytes, name, options, std::move(header), "PLY ASCII");
     case PlyEncoding::BinaryLittleEndian:
-      return read_body<BinaryBody<std::endian::little>>(bytes, name, options, std::move(header),
-                                                        "PLY binary little-endian");
+      return read_body<PlyBinaryBody<std::endian::little>>(bytes, name, options, std::move(header),
+                                                           "PLY binary little-endian");
     case PlyEncoding::BinaryBigEndian:
       break;
   }
-  return read_body<BinaryBody<std::endian::big>>(bytes, name, options, std::move(header),
-                                                 "PLY binary big-endian");
+  return read_body<PlyBinaryBody<std::endian::big>>(bytes, name, options, std::move(header),
+                                                    "PLY binary big-endian");
 }
 
 }  // namespace

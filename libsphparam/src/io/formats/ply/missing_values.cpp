@@ -1,0 +1,58 @@
+#include "io/formats/ply/missing_values.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <string_view>
+
+#include "number_text.h"
+#include "sphparam/io/losses.h"
+#include "sphparam/io/read_options.h"
+
+namespace sphparam {
+namespace {
+
+/// The properties that are one thing with this one, itself among them.
+std::vector<std::string> components_beside(const std::string& name) {
+  static const std::vector<std::vector<std::string>> vectors = {{"nx", "ny", "nz"},
+                                                                {"red", "green", "blue", "alpha"},
+                                                                {"s", "t"},
+                                                                {"u", "v"},
+                                                                {"texture_u", "texture_v"}};
+  const auto is_component = [&](const auto& names) { return std::ranges::count(names, name) > 0; };
+  const auto found = std::ranges::find_if(vectors, is_component);
+  return found == vectors.end() ? std::vector{name} : *found;
+}
+
+std::ptrdiff_t count_non_finite(const Property& property) {
+  if (!is_floating(property.type)) return 0;
+  const auto is_finite = [](double value) { return std::isfinite(value); };
+  return std::ssize(property.values) - std::ranges::count_if(property.values, is_finite);
+}
+
+bool is_of_rays(const std::string& property) {
+  return property == "sx" || property == "sy" || property == "sz";
+}
+
+}  // namespace
+
+void leave_out_non_finite(std::vector<Property>& properties, bool of_vertices,
+                          const std::string& name, std::vector<std::string>& notes) {
+  std::set<std::string> left_out;
+  for (const Property& property : properties) {
+    const auto missing = count_non_finite(property);
+    if (missing == 0) continue;
+    const std::string what = "property " + sphparam::quoted(property.name) + " of element " +
+                             sphparam::quoted(of_vertices ? "vertex" : "face") + ": it has " +
+                             counted(missing, "value that is", "values that are") + " not finite";
+    if (of_vertices && is_of_rays(property.name)) throw ReadError(name, what);
+    const std::vector<std::string> together = components_beside(property.name);
+    add_loss(notes, what + (together.size() > 1 ? "; " + joined(together) + " go together" : ""));
+    left_out.insert(together.begin(), together.end());
+  }
+  std::erase_if(properties,
+                [&](const Property& property) { return left_out.contains(property.name); });
+}
+
+}  // namespace sphparam
