@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "lanes.h"
 #include "sphparam/parallel.h"
 
 namespace sphparam {
@@ -37,22 +38,31 @@ struct BlockMatrix {
   int rows() const { return static_cast<int>(start.size()) - 1; }
 };
 
-/// r += a b
-template <int N, int K, int M>
-void add_product(const Block<N, K>& a, const Block<K, M>& b, Block<N, M>& r) {
+/// r += a b, W columns at a time; each entry's terms in order, whatever W.
+template <int W, int N, int K, int M>
+SPHPARAM_INLINE void add_product(const Block<N, K>& a, const Block<K, M>& b, Block<N, M>& r) {
+  static_assert(M % W == 0);
   for (int i = 0; i < N; ++i) {
-    for (int k = 0; k < K; ++k) {
-      for (int j = 0; j < M; ++j) r(i, j) += a(i, k) * b(k, j);
+    for (int j = 0; j < M; j += W) {
+      Lanes<W> sum = load<W>(&r.a[at(i * M + j)]);
+      for (int k = 0; k < K; ++k)
+        sum += Lanes<W>(a.a[at(i * K + k)]) * load<W>(&b.a[at(k * M + j)]);
+      store(sum, &r.a[at(i * M + j)]);
     }
   }
 }
 
-/// r += aᵀ b
-template <int N, int K, int M>
-void add_transposed_product(const Block<K, N>& a, const Block<K, M>& b, Block<N, M>& r) {
-  for (int k = 0; k < K; ++k) {
-    for (int i = 0; i < N; ++i) {
-      for (int j = 0; j < M; ++j) r(i, j) += a(k, i) * b(k, j);
+/// r += aᵀ b, likewise.
+template <int W, int N, int K, int M>
+SPHPARAM_INLINE void add_transposed_product(const Block<K, N>& a, const Block<K, M>& b,
+                                            Block<N, M>& r) {
+  static_assert(M % W == 0);
+  for (int i = 0; i < N; ++i) {
+    for (int j = 0; j < M; j += W) {
+      Lanes<W> sum = load<W>(&r.a[at(i * M + j)]);
+      for (int k = 0; k < K; ++k)
+        sum += Lanes<W>(a.a[at(k * N + i)]) * load<W>(&b.a[at(k * M + j)]);
+      store(sum, &r.a[at(i * M + j)]);
     }
   }
 }

@@ -10,6 +10,7 @@
 
 #include "embedding/multigrid/aggregates.h"
 #include "embedding/multigrid/block_matrix.h"
+#include "lanes.h"
 #include "sphparam/parallel.h"
 
 // What P carries between a matrix and that of its aggregates: block `row` of P maps the unknowns of
@@ -40,11 +41,11 @@ void make_pattern(const BlockMatrix<N>& fine, const Aggregates& aggregates,
   coarse.diagonal.resize(at(aggregates.count()));
 }
 
-/// Row c of PᵀAP.
-template <int N, int M>
-void restrict_row(const BlockMatrix<N>& fine, const std::vector<Block<N, M>>& p,
-                  const std::vector<int>& of_row, std::span<const int> members,
-                  BlockMatrix<M>& coarse, int c) {
+/// Row c of PᵀAP, W columns of a block at a time.
+template <int W, int N, int M>
+SPHPARAM_INLINE void restrict_row(const BlockMatrix<N>& fine, const std::vector<Block<N, M>>& p,
+                                  const std::vector<int>& of_row, std::span<const int> members,
+                                  BlockMatrix<M>& coarse, int c) {
   const auto first = coarse.column.begin() + coarse.start[at(c)];
   const auto last = coarse.column.begin() + coarse.start[at(c) + 1];
   Block<M>* const off = coarse.off.data() + coarse.start[at(c)];
@@ -54,21 +55,21 @@ void restrict_row(const BlockMatrix<N>& fine, const std::vector<Block<N, M>>& p,
   std::ptrdiff_t place = 0;
   for (const int row : members) {
     Block<N, M> within;
-    add_product(fine.diagonal[at(row)], p[at(row)], within);
+    add_product<W>(fine.diagonal[at(row)], p[at(row)], within);
     for (int e = fine.start[at(row)]; e < fine.start[at(row) + 1]; ++e) {
       const int column = fine.column[at(e)], other = of_row[at(column)];
       if (other == c || other < 0) {
-        add_product(fine.off[at(e)], p[at(column)], within);
+        add_product<W>(fine.off[at(e)], p[at(column)], within);
         continue;
       }
       if (std::exchange(known, other) != other) {
         place = std::lower_bound(first, last, other) - first;
       }
       Block<N, M> ap;
-      add_product(fine.off[at(e)], p[at(column)], ap);
-      add_transposed_product(p[at(row)], ap, off[place]);
+      add_product<W>(fine.off[at(e)], p[at(column)], ap);
+      add_transposed_product<W>(p[at(row)], ap, off[place]);
     }
-    add_transposed_product(p[at(row)], within, diagonal);
+    add_transposed_product<W>(p[at(row)], within, diagonal);
   }
   coarse.diagonal[at(c)] = diagonal;
 }
@@ -78,11 +79,13 @@ template <int N, int M>
 void restrict_matrix(const BlockMatrix<N>& fine, const std::vector<Block<N, M>>& p,
                      const Aggregates& aggregates, BlockMatrix<M>& coarse, int threads) {
   parallel_for(coarse.rows(), row_grain / 8, threads, [&](std::int64_t begin, std::int64_t end) {
-    for (int c = static_cast<int>(begin); c < static_cast<int>(end); ++c) {
-      const int first = aggregates.start[at(c)], last = aggregates.start[at(c) + 1];
-      const std::span<const int> rows(&aggregates.members[at(first)], at(last - first));
-      restrict_row(fine, p, aggregates.of_row, rows, coarse, c);
-    }
+    run_on_lanes([&]<int Widest>(Width<Widest>) SPHPARAM_INLINED {
+      for (int c = static_cast<int>(begin); c < static_cast<int>(end); ++c) {
+        const int first = aggregates.start[at(c)], last = aggregates.start[at(c) + 1];
+        const std::span<const int> rows(&aggregates.members[at(first)], at(last - first));
+        restrict_row<std::min(Widest, M)>(fine, p, aggregates.of_row, rows, coarse, c);
+      }
+    });
   });
 }
 
