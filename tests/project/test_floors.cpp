@@ -47,7 +47,7 @@ bool starts_with(const std::string& text, const std::string& beginning) {
 
 const fs::path private_headers = "libsphparam/src", public_headers = "libsphparam/include/sphparam";
 
-/// The room of a file of the library, "" above all rooms: "io" of src/io/formats/ply_reader.h.
+/// The room of a file of the library, "" above all rooms: "io" of src/io/formats/ply/ply_reader.h.
 std::string library_room(const fs::path& file) {
   for (const fs::path& home : {private_headers, public_headers}) {
     const fs::path inside = file.lexically_relative(home);
