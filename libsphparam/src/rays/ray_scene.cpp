@@ -1,22 +1,12 @@
-// Embree, and the only file that knows it. The mesh is moved and scaled by a power of two into the
-// cube [−1, 1]³ in doubles (turned where triangles are long and lie across the axes), then rounded:
-// each coordinate is off by at most 2⁻²⁵, turned by 2⁻²⁴.
-//
-// Nearest points: Embree walks its tree by boxes in floats; here every triangle it comes to is
-// judged in doubles. A box may be passed over only if no triangle in it can be the nearest, so the
-// radius of the search is the distance known so far, widened by what rounding may have cost. Where
-// such boxes overlap much, boxes that lie as the triangles do take their place. For a
-// point p far away floats cannot tell distances apart; the search then goes round a point p' on the
-// way from p to the centre, at distance D' ≥ r from it, where all of the mesh is within r = √3.
-// Lemma: where x is no farther from p than y, |p' − x|² ≤ |p' − y|² + r². Proof: with centre 0 and
-// p = D u, |p − x| ≤ |p − y| says g_D(x) ≤ g_D(y) for g_D(x) = |x|²/2D − u·x. As D' ≤ D,
-// g_D'(x) ≤ g_D(x) + r²/2D' ≤ g_D(y) + r²/2D' ≤ g_D'(y) + r²/2D'; times 2D', plus D'².
+// Embree, and the only file that knows it. It works in floats, in coordinates of a SceneFrame: what
+// a ray hits is Embree's word, which triangle is nearest is judged in doubles (nearest_search.cpp).
+// The tree of Embree has boxes along the axes; where these overlap much, boxes that lie as the
+// triangles do (OrientedBoxes) take their place in searches for nearest points.
 
 #include "rays/ray_scene.h"
 
 #include <embree3/rtcore.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,8 +19,9 @@
 #include <vector>
 
 #include "rays/distinct_faces.h"
+#include "rays/nearest_search.h"
 #include "rays/oriented_boxes.h"
-#include "rays/triangle_distance.h"
+#include "rays/scene_frame.h"
 
 namespace sphparam {
 
@@ -41,13 +32,6 @@ namespace {
 constexpr char settings[] = "threads=1,isa=avx2";
 
 constexpr double local_clearance = 0x1p-20;
-
-// In the search for nearest points, beyond the rounding of the mesh and of the point (2⁻²⁴ of the
-// size of each, times √3) and of Embree's few operations (some 2⁻²⁴ of the radius each).
-constexpr double position_slack = 0x1p-21, radius_slack = 0x1p-20;
-
-constexpr double squared_reach_of_cube = 3;  // r²
-constexpr double far_away = 1024;            // D': the widening r² is a thousandth of the radius
 
 // Rays that Embree gets at once; it works on them together where they go together.
 constexpr size_t bundle = 64;
@@ -90,93 +74,6 @@ struct Geometry {
   Geometry& operator=(const Geometry&) = delete;
 };
 
-/// From the mesh to the cube [−1, 1]³ and back.
-struct Frame {
-  Vector3 centre;
-  double scale;  // a power of two
-  double diagonal;
-  std::optional<Eigen::Matrix3d> turn;  // see `turned`
-
-  Vector3 local(const Vector3& point) const {
-    const Vector3 moved = (point - centre) * scale;
-    return turn ? Vector3(*turn * moved) : moved;
-  }
-  Eigen::Vector3f local_direction(const Eigen::Vector3f& direction) const {
-    return turn ? Eigen::Vector3f(turn->cast<float>() * direction) : direction;
-  }
-  /// As Embree takes it: beyond, and where a mesh is one point that rounding misses, a ray meets
-  /// nothing that floats could tell.
-  Eigen::Vector3f local_origin(const Vector3& point) const {
-    constexpr double farthest = 0x1p40;
-    return local(point).cwiseMax(-farthest).cwiseMin(farthest).cast<float>();
-  }
-  float local_length(double length) const {
-    return static_cast<float>(std::min<double>(length * scale, std::numeric_limits<float>::max()));
-  }
-};
-
-Frame frame_of(const TriangleMesh& mesh) {
-  if (mesh.face_count() == 0) throw std::invalid_argument("RayScene: no triangles");
-  if (mesh.triangles.minCoeff() < 0 || mesh.triangles.maxCoeff() >= mesh.vertex_count())
-    throw std::invalid_argument("RayScene: a triangle names a vertex that is not there");
-  Vector3 lower = mesh.position(mesh.triangles(0, 0)), upper = lower;
-  for (Eigen::Index i = 0; i < mesh.triangles.size(); ++i) {
-    const Vector3 corner = mesh.position(mesh.triangles.data()[i]);
-    if (!corner.allFinite()) throw std::invalid_argument("RayScene: not finite");
-    lower = lower.cwiseMin(corner);
-    upper = upper.cwiseMax(corner);
-  }
-  // Halves first: the difference of two large numbers may be none.
-  const Vector3 halves = upper / 2 - lower / 2;
-  const double half = halves.maxCoeff();
-  int exponent = 0;
-  std::frexp(half, &exponent);
-  constexpr int greatest = 1000;  // 2¹⁰²⁴ is infinite, and numbers below the normal ask for more
-  return {lower + halves, half > 0 ? std::ldexp(1.0, std::min(greatest, -exponent)) : 1.0,
-          2 * halves.stableNorm(), std::nullopt};
-}
-
-/// How many boxes of triangles a place of the mesh's box is in, by and large: Σ surface of their
-/// boxes / surface of the mesh's. Some 4 where triangles are compact, as many as there are where
-/// each goes from end to end.
-double overlap(const TriangleMesh& mesh, const Frame& frame) {
-  const auto half_surface = [](const Vector3& size) {
-    return size.x() * size.y() + size.y() * size.z() + size.z() * size.x();
-  };
-  Eigen::AlignedBox3d whole;
-  double sum = 0;
-  for (Eigen::Index f = 0; f < mesh.face_count(); ++f) {
-    Eigen::AlignedBox3d box;
-    for (int k = 0; k < 3; ++k) box.extend(frame.local(mesh.position(mesh.triangles(f, k))));
-    sum += half_surface(box.sizes());
-    whole.extend(box);
-  }
-  const double all = half_surface(whole.sizes());
-  return all > 0 ? sum / all : 0;
-}
-
-/// Triangles that are long and lie across the axes have boxes that overlap, so that a search goes
-/// through all of them. Where that is so, and many have one direction, that direction becomes an
-/// axis: the principal axes of the sides, each weighted by its squared length. The turned cube
-/// reaches √3 from the centre, as the cube does.
-Frame turned(const TriangleMesh& mesh, Frame frame) {
-  constexpr double crowded = 32, worthwhile = 0.5;
-  const double given = overlap(mesh, frame);
-  if (!(given > crowded)) return frame;
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-  for (Eigen::Index f = 0; f < mesh.face_count(); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      const Vector3 side = frame.local(mesh.position(mesh.triangles(f, (k + 1) % 3))) -
-                           frame.local(mesh.position(mesh.triangles(f, k)));
-      squares += side * side.transpose();
-    }
-  }
-  Frame other = frame;
-  other.turn =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(squares).eigenvectors().transpose().eval();
-  return overlap(mesh, other) < worthwhile * given ? other : frame;
-}
-
 /// A ray that is no number anywhere meets nothing.
 template <class Ray>
 void set_ray(Ray& ray, const Eigen::Vector3f& wanted_origin,
@@ -215,119 +112,9 @@ RTCIntersectContext rays_side_by_side() {
   return context_of_rays(RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
 }
 
-/// A search for the nearest point, as it goes on.
-///
-/// Most triangles that the tree comes to are farther away than the best so far already by their
-/// boxes, and are passed over. That is told from squared distances, whose rounding must not decide:
-/// a point of a triangle is computed to within 8√3 roundings of the longest vector that goes in,
-/// and the distance of a box likewise, e = 2⁻⁴⁷ L together, so that one found at distance d has a
-/// box at d + e at most, and (d + e)² ≤ (1 + 2⁻³⁰) d² + (1 + 2³⁰) e².
-class Search {
- public:
-  Search(const TriangleMesh& mesh, const std::vector<Face>& faces, const Frame& frame,
-         const Vector3& point, double near_enough)
-      : mesh_(mesh),
-        faces_(faces),
-        frame_(frame),
-        point_(point),
-        near_enough_(near_enough),
-        slack_(0x1p-63 * squared_longest(frame, point)),
-        centre_(frame.local(point)) {
-    if (centre_.squaredNorm() <= far_away * far_away) return;
-    const Vector3 away = (point - frame.centre).stableNormalized();
-    centre_ = far_away * (frame.turn ? Vector3(*frame.turn * away) : away);
-    widening_ = squared_reach_of_cube;
-  }
-
-  const Vector3& point() const { return point_; }
-  const Vector3& centre() const { return centre_; }
-  bool is_far_away() const { return widening_ > 0; }
-  const NearestPoint& best() const { return best_; }
-  /// Squared: a box farther than that has nothing to offer.
-  double beyond() const { return beyond_; }
-  /// How many triangles the tree of boxes came to.
-  int visited() const { return visited_; }
-
-  void pass_over_what_is_not_near_enough() {
-    beyond_ = std::min(beyond_, widened_square(near_enough_));
-  }
-
-  bool ends() const { return best_.squared_distance <= near_enough_; }
-
-  /// By Embree's number.
-  bool come_to(unsigned number) {
-    ++visited_;
-    return !ends() && consider(faces_[number]);
-  }
-
-  /// Is this face nearer than the best so far?
-  bool consider(Face face) {
-    const auto corners = mesh_.triangles.row(face);
-    const Vector3 a = mesh_.position(corners[0]), b = mesh_.position(corners[1]),
-                  c = mesh_.position(corners[2]);
-    if (is_beyond_best(a, b, c)) return false;
-    const TrianglePoint found = nearest_on_triangle(point_, a, b, c);
-    const double squared = found.squared_distance;
-    const bool first = best_.on.face < 0;
-    const bool wins =
-        first || squared < best_.squared_distance ||
-        (squared == best_.squared_distance && face < best_.on.face);  // whoever came first
-    if (!wins) return false;
-    best_ = {{face, found.barycentric}, squared};
-    beyond_ = std::min(beyond_, widened_square(squared));
-    const Vector3& w = found.barycentric;
-    foot_ = w[0] * frame_.local(a) + w[1] * frame_.local(b) + w[2] * frame_.local(c);
-    return true;
-  }
-
-  /// Beyond it from `centre` nothing can be the nearest.
-  float radius() const {
-    if (best_.on.face < 0) return std::numeric_limits<float>::infinity();
-    return widened(std::sqrt((centre_ - foot_).squaredNorm() + widening_));
-  }
-
-  /// Beyond it nothing is near enough.
-  float radius_of_near_enough() const {
-    if (widening_ > 0) return std::numeric_limits<float>::infinity();
-    return widened(std::sqrt(near_enough_) * frame_.scale);
-  }
-
- private:
-  /// L²: from the point to any other of the mesh, and of two sides of a triangle.
-  static double squared_longest(const Frame& frame, const Vector3& point) {
-    const double longest = (point - frame.centre).stableNorm() + 2.5 * frame.diagonal;
-    return longest * longest;
-  }
-
-  bool is_beyond_best(const Vector3& a, const Vector3& b, const Vector3& c) const {
-    const Vector3 lower = a.cwiseMin(b).cwiseMin(c), upper = a.cwiseMax(b).cwiseMax(c);
-    return (lower - point_).cwiseMax(point_ - upper).cwiseMax(0).squaredNorm() > beyond_;
-  }
-
-  double widened_square(double squared) const { return (1 + 0x1p-30) * squared + slack_; }
-
-  float widened(double known) const {
-    const double size = 1 + centre_.cwiseAbs().maxCoeff();
-    return static_cast<float>(known * (1 + radius_slack) + position_slack * size);
-  }
-
-  const TriangleMesh& mesh_;
-  const std::vector<Face>& faces_;
-  const Frame& frame_;
-  const Vector3& point_;
-  const double near_enough_;  // squared; where triangles are piled up, all of them are near
-  const double slack_;        // of squared distances of boxes
-  int visited_ = 0;
-  double beyond_ = std::numeric_limits<double>::infinity();
-  Vector3 centre_;       // p, or p' where p is far away; local
-  double widening_ = 0;  // of the squared radius
-  NearestPoint best_ = {{-1, Vector3::Zero()}, std::numeric_limits<double>::infinity()};
-  Vector3 foot_ = Vector3::Zero();  // of the best; local
-};
-
 /// Returns true where the radius has changed, as Embree wants it.
 bool come_to_triangle(RTCPointQueryFunctionArguments* arguments) {
-  auto& search = *static_cast<Search*>(arguments->userPtr);
+  auto& search = *static_cast<NearestSearch*>(arguments->userPtr);
   if (!search.come_to(arguments->primID)) return false;
   const float radius = search.radius();
   // Of two triangles equally near the second may have the wider radius, by rounding.
@@ -336,7 +123,7 @@ bool come_to_triangle(RTCPointQueryFunctionArguments* arguments) {
   return true;
 }
 
-void go_through(RTCScene scene, Search& search, float radius) {
+void go_through(RTCScene scene, NearestSearch& search, float radius) {
   RTCPointQuery query;
   query.x = static_cast<float>(search.centre().x());
   query.y = static_cast<float>(search.centre().y());
@@ -348,7 +135,7 @@ void go_through(RTCScene scene, Search& search, float radius) {
   rtcPointQuery(scene, &query, &context, come_to_triangle, &search);
 }
 
-void go_through(const OrientedBoxes& boxes, Search& search) {
+void go_through(const OrientedBoxes& boxes, NearestSearch& search) {
   boxes.visit(
       search.point(), [&] { return search.beyond(); },
       [&](Face face) { return search.consider(face) && search.ends(); });
@@ -359,7 +146,7 @@ void go_through(const OrientedBoxes& boxes, Search& search) {
 struct RayScene::Tree {
   explicit Tree(const TriangleMesh& triangles)
       : mesh(triangles),
-        frame(turned(triangles, frame_of(triangles))),
+        frame(scene_frame(triangles)),
         faces(distinct_faces(triangles)),
         scene(device.handle) {
     Geometry geometry(device.handle);
@@ -398,7 +185,7 @@ struct RayScene::Tree {
       const Face face = faces[i * faces.size() / probes];
       Vector3 middle = Vector3::Zero();
       for (int k = 0; k < 3; ++k) middle += mesh.position(mesh.triangles(face, k)) / 3;
-      Search search(mesh, faces, frame, middle, -1);
+      NearestSearch search(mesh, faces, frame, middle, -1);
       search.consider(face);
       sphparam::go_through(scene.handle, search, search.radius());
       visited += static_cast<size_t>(search.visited());
@@ -407,7 +194,7 @@ struct RayScene::Tree {
   }
 
   /// The rest of a search; nothing beyond the radius, of Embree's coordinates, is of interest.
-  void go_through(Search& search, float radius) const {
+  void go_through(NearestSearch& search, float radius) const {
     std::call_once(boxes_chosen, [&] {
       if (is_crowded()) oriented.emplace(mesh, faces, frame.scale);
     });
@@ -421,7 +208,7 @@ struct RayScene::Tree {
   }
 
   const TriangleMesh& mesh;
-  Frame frame;
+  SceneFrame frame;
   std::vector<Face> faces;  // of the mesh, by Embree's numbers
   Device device;
   Scene scene;
@@ -504,14 +291,14 @@ void RayScene::first_hits(std::span<const Ray> rays, std::span<RayHit> hits) con
 }
 
 NearestPoint RayScene::nearest(const Vector3& point, Face guess, double near_enough) const {
-  Search search(tree_->mesh, tree_->faces, tree_->frame, point, near_enough);
+  NearestSearch search(tree_->mesh, tree_->faces, tree_->frame, point, near_enough);
   if (guess >= 0) search.consider(guess);
   if (!search.ends()) tree_->go_through(search, search.radius());
   return search.best();
 }
 
 bool RayScene::is_within(double distance, const Vector3& point, Face guess) const {
-  Search search(tree_->mesh, tree_->faces, tree_->frame, point, distance * distance);
+  NearestSearch search(tree_->mesh, tree_->faces, tree_->frame, point, distance * distance);
   if (guess >= 0) search.consider(guess);
   search.pass_over_what_is_not_near_enough();
   if (!search.ends()) tree_->go_through(search, search.radius_of_near_enough());
