@@ -160,29 +160,36 @@ class Inspector {
     return triangle_area(Vector3::Zero(), side(1), side(2));
   }
 
-  void check_edges() {
-    // 1. Edges by how many faces they have, and which way those run through them.
+  struct BadEdges {
     Places boundary, crowded, misoriented;
-    UnionFind loops(static_cast<size_t>(vertices_));
+  };
+
+  /// Edges by how many faces they have, and which way those run through them.
+  BadEdges count_edges() {
+    BadEdges bad;
+    UnionFind loops(static_cast<size_t>(vertices_));  // boundary edges that meet are of one loop
     std::vector<Vertex> on_boundary;
     for_each_edge(sides_, [&](size_t i, size_t j) {
       ++result_.edges;
       const FaceSide& side = sides_[i];
       if (j - i == 1) {
-        boundary.add({side.low, side.high});
+        bad.boundary.add({side.low, side.high});
         loops.unite(side.low, side.high);
         on_boundary.push_back(side.low);
       }
-      if (j - i > 2) crowded.add({side.low, side.high});
+      if (j - i > 2) bad.crowded.add({side.low, side.high});
       if (j - i == 2 && side.forward == sides_[i + 1].forward)
-        misoriented.add({side.low, side.high});
+        bad.misoriented.add({side.low, side.high});
     });
-    // 2. Boundary edges that meet belong to one loop.
     std::vector<int> roots;
     for (const Vertex v : on_boundary) roots.push_back(loops.find(v));
     std::sort(roots.begin(), roots.end());
     result_.boundary_loops = std::unique(roots.begin(), roots.end()) - roots.begin();
-    // 3. What was found, said.
+    return bad;
+  }
+
+  void check_edges() {
+    const auto [boundary, crowded, misoriented] = count_edges();
     if (boundary.count > 0) {
       add_fatal(DefectKind::BoundaryEdge, boundary.count, boundary.elements,
                 "not closed: " + counted(boundary.count, "boundary edge", "boundary edges") +
@@ -196,16 +203,18 @@ class Inspector {
                     list_of(RepairPlace::Edges, crowded),
                 "remove inner or duplicate faces");
     }
-    if (misoriented.count > 0) {
-      const bool one_sided = is_one_sided();
-      add_fatal(DefectKind::InconsistentOrientation, misoriented.count, misoriented.elements,
-                counted(misoriented.count, "edge is", "edges are") +
-                    " run through the same way by both faces" +
-                    (one_sided ? " of a one-sided (non-orientable) surface" : "") +
-                    list_of(RepairPlace::Edges, misoriented),
-                one_sided ? "however its faces are turned, some edge is run through the same way"
-                          : "orient the faces consistently");
-    }
+    if (misoriented.count > 0) tell_misoriented(misoriented);
+  }
+
+  void tell_misoriented(const Places& edges) {
+    const bool one_sided = is_one_sided();
+    add_fatal(DefectKind::InconsistentOrientation, edges.count, edges.elements,
+              counted(edges.count, "edge is", "edges are") +
+                  " run through the same way by both faces" +
+                  (one_sided ? " of a one-sided (non-orientable) surface" : "") +
+                  list_of(RepairPlace::Edges, edges),
+              one_sided ? "however its faces are turned, some edge is run through the same way"
+                        : "orient the faces consistently");
   }
 
   /// Each face as it is, and turned over: joined across edges where they agree. One-sided is what
@@ -282,28 +291,30 @@ class Inspector {
 
   void count_components() {
     UnionFind parts(static_cast<size_t>(vertices_));
-    std::vector<char> used(static_cast<size_t>(vertices_), 0);
+    used_.assign(static_cast<size_t>(vertices_), 0);
     long joined = 0;
     for (Face f = 0; f < faces_; ++f) {
       if (!is_sound(f)) continue;
       for (int k = 0; k < 3; ++k) {
-        used[static_cast<size_t>(corner(f, k))] = 1;
+        used_[static_cast<size_t>(corner(f, k))] = 1;
         joined += parts.unite(corner(f, k), corner(f, (k + 1) % 3));
       }
     }
-    result_.used_vertices = std::count(used.begin(), used.end(), 1);
+    result_.used_vertices = std::count(used_.begin(), used_.end(), 1);
     result_.components = result_.used_vertices - joined;
     const long sound_faces = std::count(sound_.begin(), sound_.end(), true);
     result_.euler_characteristic = result_.used_vertices - result_.edges + sound_faces;
-    used_ = std::move(used);
     if (result_.components > 1) {
       add_fatal(DefectKind::SeveralComponents, result_.components, {},
                 std::to_string(result_.components) + " separate components; the largest has " +
                     words_of_largest(parts),
                 "keep one of them");
     }
-    const bool clean = result_.defects.empty() && result_.components == 1;
-    if (!clean) return;
+    if (result_.defects.empty() && result_.components == 1) check_genus();
+  }
+
+  /// Requires: one closed manifold.
+  void check_genus() {
     result_.genus = (2 - result_.euler_characteristic) / 2;
     if (result_.genus != 0) {
       add_fatal(DefectKind::WrongGenus, result_.genus, {},
@@ -425,51 +436,6 @@ class Inspector {
   MeshInspection result_;
 };
 
-/// Whether every vertex is reached from the first. A closed mesh without handles has χ = 2 a
-/// component, so this and χ = 2 together mean genus 0.
-bool is_connected(const Topology& topology) {
-  std::vector<char> seen(static_cast<size_t>(topology.vertex_count()), 0);
-  std::vector<Vertex> stack{0};
-  seen[0] = 1;
-  long reached = 1;
-  while (!stack.empty()) {
-    const Vertex v = stack.back();
-    stack.pop_back();
-    topology.for_each_outgoing(v, [&](Halfedge h) {
-      char& mark = seen[static_cast<size_t>(topology.target(h))];
-      if (mark) return;
-      mark = 1;
-      ++reached;
-      stack.push_back(topology.target(h));
-    });
-  }
-  return reached == topology.vertex_count();
-}
-
-[[noreturn]] void refuse(const TriangleMesh& mesh) {
-  std::vector<MeshDefect> reasons;
-  for (MeshDefect& defect : inspect_mesh(mesh).defects) {
-    if (defect.fatal || defect.kind == DefectKind::UnusedVertex) reasons.push_back(defect);
-  }
-  throw MeshError(std::move(reasons));
-}
-
-/// Whether it would be one if only it were closed.
-bool has_places(const std::vector<MeshDefect>& defects) {
-  return defects.empty() ||
-         std::any_of(defects.begin(), defects.end(), [](const MeshDefect& defect) {
-           return defect.kind != DefectKind::Empty && defect.kind != DefectKind::IndexOutOfRange &&
-                  defect.kind != DefectKind::NonFinitePosition;
-         });
-}
-
-std::string joined_messages(const std::vector<MeshDefect>& defects) {
-  std::string text =
-      has_places(defects) ? "the mesh is not a closed genus-0 manifold" : "the mesh cannot be used";
-  for (const MeshDefect& defect : defects) text += "; " + defect.message;
-  return text;
-}
-
 }  // namespace
 
 bool MeshInspection::is_sphere() const {
@@ -480,26 +446,6 @@ bool MeshInspection::is_sphere() const {
 MeshInspection inspect_mesh(const TriangleMesh& mesh) {
   require_numbered(mesh.face_count(), mesh.vertex_count());
   return Inspector(mesh).run();
-}
-
-MeshError::MeshError(std::vector<MeshDefect> defects)
-    : std::runtime_error(joined_messages(defects)), defects_(std::move(defects)) {}
-
-Topology require_sphere(const TriangleMesh& mesh, int threads) {
-  if (mesh.face_count() < 4 || !mesh.positions.allFinite()) refuse(mesh);
-  Topology topology(mesh, threads);
-  require_sphere(mesh, topology);
-  return topology;
-}
-
-void require_sphere(const TriangleMesh& mesh, const Topology& topology) {
-  const int characteristic =
-      topology.vertex_count() - topology.edge_count() + topology.face_count();
-  // A torus beside two spheres has characteristic 2 as well.
-  if (mesh.face_count() < 4 || !mesh.positions.allFinite() || characteristic != 2 ||
-      !is_connected(topology)) {
-    refuse(mesh);
-  }
 }
 
 }  // namespace sphparam
