@@ -32,11 +32,11 @@ struct Tally {
   double area_min = infinity, area_max = 0, angle_max = 1, conformal_max = 1, sigma_min = infinity;
 
   /// Requires: at most TriangleMeter::most.
-  void add(std::span<const TriangleDistortion> rows) {
+  void add(std::span<const DistortionRow> rows) {
     constexpr size_t ratios = 4;  // of a triangle
     std::array<double, TriangleMeter::most * ratios> values, logs;
     size_t count = 0;
-    for (const TriangleDistortion& d : rows) {
+    for (const DistortionRow& d : rows) {
       values[count++] = d.area_ratio;
       for (const double ratio : d.angle_ratio) values[count++] = ratio;
     }
@@ -45,7 +45,7 @@ struct Tally {
       add(rows[i], std::span(logs).subspan(ratios * i).first<ratios>());
   }
 
-  void add(const TriangleDistortion& d, std::span<const double, 4> logs) {
+  void add(const DistortionRow& d, std::span<const double, 4> logs) {
     const double ratio = d.area_ratio, share = d.source_area;
     if (share == 0) {
       ++flat_faces;
@@ -90,7 +90,7 @@ struct Tally {
 /// Calls of(first, rows) for all triangles from first to last, some at a time.
 template <class Of>
 void for_some(std::int64_t first, std::int64_t last, const Of& of) {
-  std::array<TriangleDistortion, TriangleMeter::most> rows;
+  std::array<DistortionRow, TriangleMeter::most> rows;
   constexpr std::int64_t most = TriangleMeter::most;
   for (; first < last; first += most)
     of(first, std::span(rows).first(static_cast<size_t>(std::min(most, last - first))));
@@ -102,7 +102,7 @@ Tally tally(Eigen::Index faces, int threads, const Fill& fill) {
   std::vector<Tally> partial(static_cast<size_t>((faces + grain - 1) / grain));
   parallel_for(faces, grain, threads, [&](std::int64_t first, std::int64_t last) {
     Tally local;
-    for_some(first, last, [&](std::int64_t from, std::span<TriangleDistortion> rows) {
+    for_some(first, last, [&](std::int64_t from, std::span<DistortionRow> rows) {
       fill(from, rows);
       local.add(rows);
     });
@@ -196,9 +196,9 @@ Distortion measure_distortion(const TriangleMesh& mesh, const SphereMap& map, in
   if (faces == 0) return result;
   const TriangleMeter meter(mesh, map, threads);
   parallel_for(faces, grain, threads, [&](std::int64_t first, std::int64_t last) {
-    for_some(first, last, [&](Eigen::Index f, std::span<TriangleDistortion> rows) {
+    for_some(first, last, [&](Eigen::Index f, std::span<DistortionRow> rows) {
       meter.measure(f, rows);
-      for (const TriangleDistortion& d : rows) {
+      for (const DistortionRow& d : rows) {
         for (int k = 0; k < 3; ++k) result.angle_ratio(f, k) = d.angle_ratio[k];
         result.area_ratio[f] = d.area_ratio;
         result.sigma_max[f] = d.sigma_max;
@@ -212,8 +212,8 @@ Distortion measure_distortion(const TriangleMesh& mesh, const SphereMap& map, in
 
 DistortionSummary summarise(const Distortion& d, int threads) {
   if (d.area_ratio.size() == 0) return {};
-  const auto copy = [&](Eigen::Index f, std::span<TriangleDistortion> rows) {
-    for (TriangleDistortion& row : rows) {
+  const auto copy = [&](Eigen::Index f, std::span<DistortionRow> rows) {
+    for (DistortionRow& row : rows) {
       row = {{d.angle_ratio(f, 0), d.angle_ratio(f, 1), d.angle_ratio(f, 2)},
              d.area_ratio[f],
              d.sigma_max[f],
@@ -234,12 +234,10 @@ DistortionSummary summarise_distortion(const TriangleMesh& mesh, const SphereMap
   const TriangleMeter meter(mesh, map, threads);
   VectorX area_ratio(faces);
   constexpr double none = -1;  // of a face without area
-  const Tally total =
-      tally(faces, threads, [&](Eigen::Index f, std::span<TriangleDistortion> rows) {
-        meter.measure(f, rows);
-        for (const TriangleDistortion& d : rows)
-          area_ratio[f++] = d.source_area == 0 ? none : d.area_ratio;
-      });
+  const Tally total = tally(faces, threads, [&](Eigen::Index f, std::span<DistortionRow> rows) {
+    meter.measure(f, rows);
+    for (const DistortionRow& d : rows) area_ratio[f++] = d.source_area == 0 ? none : d.area_ratio;
+  });
   area_ratio.conservativeResize(std::remove(area_ratio.begin(), area_ratio.end(), none) -
                                 area_ratio.begin());
   return summary_of(total, std::move(area_ratio));

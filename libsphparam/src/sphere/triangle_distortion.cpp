@@ -142,8 +142,8 @@ struct Pair {
 
 /// `to_sphere` scales source areas so that they sum to 4π.
 template <class Arctangents>
-TriangleDistortion distortion_of(const Pair& pair, Arctangents& arctangents, double to_sphere) {
-  TriangleDistortion result;
+DistortionRow distortion_of(const Pair& pair, Arctangents& arctangents, double to_sphere) {
+  DistortionRow result;
   const PlaneTriangle &source = pair.source, &chord = pair.chord;
   const auto angles_at = [&](const Corners& at) {
     const double first = arctangents.next(), second = arctangents.next();
@@ -184,7 +184,7 @@ TriangleMeter::TriangleMeter(const TriangleMesh& mesh, const SphereMap& map, int
   to_sphere_ = sphere_area / (total / 2);
 }
 
-void TriangleMeter::measure(Eigen::Index first, std::span<TriangleDistortion> rows) const {
+void TriangleMeter::measure(Eigen::Index first, std::span<DistortionRow> rows) const {
   const Source source{mesh_, scale_};
   std::array<Pair, most> pairs;
   Arctangents<most * Pair::angles> arctangents;

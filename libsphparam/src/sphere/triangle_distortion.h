@@ -9,8 +9,8 @@
 
 namespace sphparam {
 
-/// A row of a `Distortion`.
-struct TriangleDistortion {
+/// A row of a `Distortion`: of one triangle.
+struct DistortionRow {
   std::array<double, 3> angle_ratio;
   double area_ratio, sigma_max, sigma_min, source_area;
 };
@@ -26,7 +26,7 @@ class TriangleMeter {
   static constexpr size_t most = 64;  // triangles at once
 
   /// Triangles first, first + 1, …. Requires: at most `most`.
-  void measure(Eigen::Index first, std::span<TriangleDistortion> rows) const;
+  void measure(Eigen::Index first, std::span<DistortionRow> rows) const;
 
  private:
   const TriangleMesh& mesh_;
