@@ -93,6 +93,31 @@ TEST_CASE("measure: the distance of every vertex, as a property and as colours")
   }
 }
 
+TEST_CASE("measure: --signed says which side, in the report, the table and the file") {
+  const Balls balls;
+  const std::string file = balls.folder / "deviation.ply", json = balls.folder / "d.json";
+  const Ended ended = balls.measure({"--signed", "--per-vertex", file, "--json", json});
+  REQUIRE(ended.code == 0);
+  const Json report = Json::parse(bytes_of(json));
+  const Json side = report["first_to_second"];
+  CHECK(side["signed"]["min"].get<double>() == -side["max"].get<double>());
+  CHECK(side["signed"]["max"].get<double>() == -side["min"].get<double>());
+  CHECK(side["signed"]["mean"].get<double>() == -side["mean"].get<double>());
+  CHECK_FALSE(report["second_to_first"].contains("signed"));
+  CHECK_THAT(ended.out, Contains("\nsigned, of 1 from 2, less than 0 inside: from -0."));
+  const Ended info = sphparam_program({"info", file, "--json", "-"});
+  const Json properties = Json::parse(info.out)["input"]["vertex_properties"];
+  for (const char* name : {"error", "deviation", "red"})
+    CHECK(std::count(properties.begin(), properties.end(), name) == 1);
+  const std::string open = balls.folder / "open.obj";
+  write_bytes(open, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const Ended refused = sphparam_program({"measure", balls.small, open, "--signed"});
+  CHECK(refused.code == 4);
+  CHECK_THAT(refused.err,
+             Contains("open.obj") && Contains("it is not closed") && Contains("3 edges are open"));
+  CHECK(sphparam_program({"measure", open, balls.small, "--signed"}).code == 0);
+}
+
 TEST_CASE("measure: a glTF file that export has turned is told of, one that it has not is not") {
   const Folder folder;
   TriangleMesh limb = icosphere(2);

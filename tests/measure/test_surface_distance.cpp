@@ -28,6 +28,16 @@ TriangleMesh plane(int n, double height) {
   return mesh;
 }
 
+/// [−1, 1]³
+TriangleMesh cube() {
+  TriangleMesh mesh{Points(8, 3), Triangles(12, 3)};
+  for (int v = 0; v < 8; ++v)
+    mesh.positions.row(v) << (v & 1 ? 1 : -1), (v & 2 ? 1 : -1), (v & 4 ? 1 : -1);
+  mesh.triangles << 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 4, 6,
+      0, 6, 2, 1, 3, 7, 1, 7, 5;
+  return mesh;
+}
+
 TriangleMesh scaled(TriangleMesh mesh, double factor) {
   mesh.positions *= factor;
   return mesh;
@@ -199,6 +209,72 @@ TEST_CASE("distance: nothing to measure, no samples, no area, and a word to stop
   }
   const Progress stop = [](std::string_view stage, double) { return stage == "trees"; };
   CHECK_THROWS_AS(measure_distance(ball, ball, {.progress = stop}), Cancelled);
+}
+
+TEST_CASE("distance: less than 0 inside of a closed surface, to the bit") {
+  const TriangleMesh inner = scaled(cube(), 0.5), outer = cube();
+  const DistanceOptions options{.samples = 2000, .deviations = true};
+  const SurfaceDistance in = measure_distance(inner, outer, options);
+  REQUIRE(in.forth.deviation);
+  CHECK(in.forth.deviation->min == -0.5);
+  CHECK(in.forth.deviation->max == -0.5);
+  CHECK(in.forth.deviation->mean == -0.5);
+  CHECK(in.forth.deviation->at_vertices == VectorX::Constant(8, -0.5));
+  CHECK_FALSE(in.back.deviation);
+  const SurfaceDistance out = measure_distance(outer, inner, options);
+  CHECK(out.forth.deviation->max == out.forth.max);
+  CHECK(out.forth.deviation->min == out.forth.min);
+  CHECK(out.forth.deviation->mean == out.forth.mean);
+  CHECK(out.forth.deviation->at_vertices == out.forth.at_vertices);
+}
+
+TEST_CASE("distance: a shifted cube is half inside; the unsigned figures are those without sides") {
+  TriangleMesh shifted = cube();
+  shifted.positions.col(0).array() += 0.25;
+  DistanceOptions options{.samples = 4000, .deviations = true};
+  const SurfaceDistance found = measure_distance(shifted, cube(), options);
+  const SignedDeviation& deviation = *found.forth.deviation;
+  CHECK(deviation.min == -0.25);
+  CHECK(deviation.max == 0.25);
+  VectorX corners(8);
+  for (int v = 0; v < 8; ++v) corners[v] = v % 2 == 0 ? 0 : 0.25;  // the others slide along edges
+  CHECK(deviation.at_vertices == corners);
+  // Of the six sides: one 1/4 outside, one inside, nearer to the cube's sides along its rim, and
+  // strips of four, an eighth wide, that come out to 1/4.
+  const double rim = (1 - std::pow(0.75, 3)) / 3, strips = 4 * 0.125 / 8;
+  CHECK(deviation.mean == Approx((0.25 - rim + strips) / 6).margin(5e-4));
+  options.deviations = false;
+  CHECK(same_bits(found, measure_distance(shifted, cube(), options)));
+  options.deviations = true;
+  options.threads = 3;
+  const SignedDeviation again = *measure_distance(shifted, cube(), options).forth.deviation;
+  CHECK(again.mean == deviation.mean);
+  options.extremes = false;
+  const SurfaceDistance samples_alone = measure_distance(shifted, cube(), options);
+  CHECK(samples_alone.forth.deviation->mean == deviation.mean);
+  CHECK(samples_alone.forth.deviation->at_vertices.size() == 0);
+}
+
+TEST_CASE("distance: sides of a surface of any size; none of one that is open") {
+  const DistanceOptions options{.samples = 1000, .deviations = true};
+  for (const double size : {1e100, 1e-100}) {
+    const SurfaceDistance found =
+        measure_distance(scaled(cube(), size / 2), scaled(cube(), size), options);
+    CHECK(found.forth.deviation->min == Approx(-size / 2));
+    CHECK(found.forth.deviation->at_vertices[3] == Approx(-size / 2));
+  }
+  const SurfaceDistance itself = measure_distance(icosphere(3), icosphere(3), options);
+  CHECK(itself.forth.deviation->min == 0);
+  CHECK(measure_distance(plane(3, 0), cube(), options).forth.deviation);
+  try {
+    measure_distance(cube(), plane(3, 0), options);
+    FAIL("a plane has no inside");
+  } catch (const UnmeasurableSurface& error) {
+    CHECK(error.side() == Side::Second);
+    CHECK(std::string(error.what()) ==
+          "it is not closed, so nothing is inside: 12 edges are open, or between faces that are "
+          "turned against each other");
+  }
 }
 
 }  // namespace sphparam

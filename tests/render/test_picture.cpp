@@ -175,3 +175,19 @@ TEST_CASE("coloured values: a property, colours, and a comment where one says wh
   CHECK(told.find_vertex_property("error")->values[11] == 2.5);
   CHECK(told.find_vertex_property("red"));
 }
+
+TEST_CASE("coloured values: of both signs, blue to red as far both ways") {
+  const MeshFile ball = file_of(icosphere(0));
+  VectorX values = VectorX::Zero(ball.mesh.vertex_count());
+  values[0] = -2, values[1] = 1, values[2] = 2;
+  const MeshFile told = with_coloured_values(ball, "deviation", values, "distance");
+  CHECK(told.comments[0] == "deviation: distance, colours from -2 to 2");
+  const auto channel = [&](const char* name, size_t v) {
+    return told.find_vertex_property(name)->values[v];
+  };
+  CHECK(channel("blue", 0) > channel("red", 0));
+  CHECK(channel("red", 2) > channel("blue", 2));
+  CHECK(channel("red", 3) == channel("red", 4));
+  CHECK(channel("red", 3) > 200);
+  CHECK(channel("green", 1) > channel("green", 2));
+}

@@ -28,6 +28,7 @@ constexpr char summary[] =
     "  sphparam measure statue.obj statue_low.ply --samples 10000000 --json distance.json\n"
     "  sphparam measure statue.obj statue_low.ply --max-rms 0.1% || echo too far\n"
     "  sphparam measure statue.obj statue_low.ply --per-vertex error.ply\n"
+    "  sphparam measure scan.ply part.stl --signed --per-vertex deviation.ply\n"
     "\n"
     "Both directions: samples spread evenly over each surface, and their nearest points on the\n"
     "other. Maxima (the larger is the Hausdorff distance) are over vertices too and then sought\n"
@@ -100,6 +101,7 @@ bool is_nearer_turned(const MeshFile& gltf, const MeshFile& other, double rms,
   DistanceOptions options = arguments.options;
   options.samples = std::min(options.samples, enough);
   options.extremes = false;
+  options.deviations = false;
   options.threads = session.threads();
   return measure_distance(gltf.mesh, turned, options).rms() <= much * rms;
 }
@@ -133,6 +135,19 @@ void tell_turned(const MeasureArguments& arguments, const MeshFile& first, const
                       shell_file(output) + "` writes it as it stands");
 }
 
+/// A with each vertex's distance to B, and the side, where that is wanted.
+MeshFile with_distances(const MeasureArguments& arguments, const MeshFile& first,
+                        const OneSidedDistance& distance) {
+  const VectorX& values = distance.at_vertices;
+  const std::string about = "distance to " + display_name(arguments.second);
+  if (!distance.deviation) return with_coloured_values(first, "error", values, about);
+  MeshFile file = with_coloured_values(first, "deviation", distance.deviation->at_vertices,
+                                       about + ", less than 0 inside");
+  file.set_vertex_property(
+      {"error", ScalarType::Float64, std::vector<double>(values.begin(), values.end())});
+  return file;
+}
+
 /// The exit code.
 int tell_exceeded(const std::vector<DistanceLimit>& limits) {
   int code = Ok;
@@ -163,9 +178,9 @@ int run_measure(MeasureArguments& arguments) {
                            .distance = distance,
                            .limits = judge(arguments, distance)};
   if (!arguments.per_vertex.empty()) {
-    const MeshFile coloured = with_coloured_values(first, "error", distance.forth.at_vertices,
-                                                   "distance to " + display_name(arguments.second));
-    session.files.add(arguments.per_vertex, serialise_mesh(arguments.per_vertex, coloured));
+    session.files.add(
+        arguments.per_vertex,
+        serialise_mesh(arguments.per_vertex, with_distances(arguments, first, distance.forth)));
     record.outputs.emplace_back("per_vertex", arguments.per_vertex);
   }
   record.seconds = session.stopwatch.seconds();
@@ -197,6 +212,9 @@ void declare_options(Declaration& command, MeasureArguments& arguments) {
       .text("--per-vertex", arguments.per_vertex, "FILE",
             "A with each vertex's distance to B: property error, and colours")
       .written()
+      .flag("--signed", options.deviations,
+            "Also on which side of B, a closed surface, A is: distances less than 0 inside; in "
+            "--per-vertex as property deviation, and the colours")
       .json(arguments);
   declare_length(command, "--max-rms", arguments.max_rms,
                  "Exit with status 6 if the larger RMS is more; % of A's diagonal");

@@ -13,8 +13,10 @@
 #include <utility>
 #include <vector>
 
+#include "measure/enclosure.h"
 #include "measure/farthest_point.h"
 #include "measure/surface_samples.h"
+#include "number_text.h"
 #include "rays/ray_scene.h"
 #include "sphparam/parallel.h"
 
@@ -36,10 +38,13 @@ constexpr double largest_unscaled = 1e60, smallest_unscaled = 1e-60;
 
 struct Tally {
   double max = -1, min = std::numeric_limits<double>::infinity(), sum = 0, squares = 0;
+  double most_inside = std::numeric_limits<double>::infinity(), most_outside = -most_inside;
+  double signed_sum = 0;
   std::int64_t count = 0;
   Vector3 farthest = Vector3::Zero();
 
-  void add(double distance, const Vector3& point) {
+  /// `deviation`: the distance, less than 0 inside.
+  void add(double distance, double deviation, const Vector3& point) {
     if (distance > max) {
       max = distance;
       farthest = point;
@@ -47,6 +52,8 @@ struct Tally {
     min = std::min(min, distance);
     sum += distance;
     squares += distance * distance;
+    add_deviation(deviation);
+    signed_sum += deviation;
     ++count;
   }
   /// The other's points come after these: of equal maxima, the first stays.
@@ -58,7 +65,14 @@ struct Tally {
     min = std::min(min, other.min);
     sum += other.sum;
     squares += other.squares;
+    most_inside = std::min(most_inside, other.most_inside);
+    most_outside = std::max(most_outside, other.most_outside);
+    signed_sum += other.signed_sum;
     count += other.count;
+  }
+  void add_deviation(double deviation) {
+    most_inside = std::min(most_inside, deviation);
+    most_outside = std::max(most_outside, deviation);
   }
 };
 
@@ -79,13 +93,21 @@ struct Meter {
 struct Direction {
   const TriangleMesh& from;
   const RayScene& to;
+  const Enclosure* inside;  // none: sides are not asked for
+  double noise;             // of samples; what is no farther is on the other surface
   int threads;
   Meter meter;
 
+  double deviation(double distance, const Vector3& point) const {
+    const bool is_inside = inside && distance > noise && inside->holds(point);
+    return is_inside ? -distance : distance;
+  }
+
   /// measure(i, distance, face, point, tally) is told how far point_at(i) is from the other
-  /// surface, and from which of its faces; where that is no more than `noise`, from any so near.
+  /// surface, and from which of its faces; where that is no more than `enough`, from any so near.
   template <class PointAt, class Measure>
-  Tally measure(std::int64_t count, const PointAt& point_at, double noise, const Measure& measure) {
+  Tally measure(std::int64_t count, const PointAt& point_at, double enough,
+                const Measure& measure) {
     Tally all;
     for (std::int64_t start = 0; start < count; start += block) {
       const std::int64_t points = std::min(block, count - start);
@@ -95,7 +117,7 @@ struct Direction {
         Face guess = -1;
         for (std::int64_t i = start + first; i < start + last; ++i) {
           const Vector3 point = point_at(i);
-          const NearestPoint found = to.nearest(point, guess, noise * noise);
+          const NearestPoint found = to.nearest(point, guess, enough * enough);
           guess = found.on.face;
           measure(i, std::sqrt(found.squared_distance), found.on.face, point, part);
         }
@@ -125,8 +147,10 @@ std::vector<char> used_vertices(const TriangleMesh& mesh) {
   return used;
 }
 
-Tally measure_vertices(Direction& direction, const TriangleMesh& other, VertexDistances& result) {
+Tally measure_vertices(Direction& direction, const TriangleMesh& other, VertexDistances& result,
+                       VectorX& deviations) {
   const std::vector<char> used = used_vertices(direction.from);
+  deviations.resize(direction.inside ? direction.from.vertex_count() : 0);
   result.distances.resize(direction.from.vertex_count());
   result.nearest.resize(used.size());
   return direction.measure(
@@ -138,17 +162,20 @@ Tally measure_vertices(Direction& direction, const TriangleMesh& other, VertexDi
                                   ? distance
                                   : (point - other.position(other.triangles(0, 0))).stableNorm();
         result.nearest[static_cast<size_t>(v)] = face;
-        if (used[static_cast<size_t>(v)]) tally.add(distance, point);
+        const double deviation = direction.deviation(result.distances[v], point);
+        if (direction.inside) deviations[v] = deviation;
+        if (used[static_cast<size_t>(v)]) tally.add(distance, deviation, point);
       });
 }
 
 template <class Samples>
 Tally measure_samples(Direction& direction, const Samples& samples) {
-  const double noise = sample_rounding * largest_coordinate(direction.from);
+  const double noise = direction.noise;
   return direction.measure(
       samples.count(), samples, noise,
-      [noise](std::int64_t, double distance, Face, const Vector3& point, Tally& tally) {
-        tally.add(distance <= noise ? 0 : distance, point);
+      [&](std::int64_t, double distance, Face, const Vector3& point, Tally& tally) {
+        const double apart = distance <= noise ? 0 : distance;
+        tally.add(apart, direction.deviation(apart, point), point);
       });
 }
 
@@ -164,17 +191,24 @@ Samples samples_of(const TriangleMesh& mesh, Side side, const char* size,
 }
 
 OneSidedDistance measure_one_side(Side side, const TriangleMesh& from, const TriangleMesh& other,
-                                  const RayScene& to, const DistanceOptions& options) {
+                                  const RayScene& to, const Enclosure* inside,
+                                  const DistanceOptions& options) {
   const std::string_view stage = side == Side::First ? "first to second" : "second to first";
   const bool asks_vertices = options.extremes || options.vertices;
   const std::int64_t points = asks_vertices * from.vertex_count() +
                               options.samples * (int{options.faces} + int{options.edges});
-  Direction direction = {
-      from, to, options.threads, {options.progress, stage, static_cast<double>(points)}};
+  Direction direction = {from,
+                         to,
+                         inside,
+                         sample_rounding * largest_coordinate(from),
+                         options.threads,
+                         {options.progress, stage, static_cast<double>(points)}};
   OneSidedDistance result;
+  SignedDeviation deviation;
   VertexDistances at_vertices;
   Tally vertices, samples;
-  if (asks_vertices) vertices = measure_vertices(direction, other, at_vertices);
+  if (asks_vertices)
+    vertices = measure_vertices(direction, other, at_vertices, deviation.at_vertices);
   if (options.vertices) samples.add(vertices);
   if (options.edges) {
     const auto on_edges = samples_of<EdgeSamples>(from, side, "length of edges", options);
@@ -197,11 +231,17 @@ OneSidedDistance measure_one_side(Side side, const TriangleMesh& from, const Tri
   if (options.extremes)
     farthest =
         find_farthest(from, at_vertices, other, to, farthest, options.samples, options.threads);
-  const bool noise = farthest.distance < sample_rounding * largest_coordinate(from);
+  const bool noise = farthest.distance < direction.noise;
   result.max = noise ? all.max : farthest.distance;
   result.max_bound = farthest.at_most;
   result.farthest = farthest.point;
   result.at_vertices = std::move(at_vertices.distances);
+  if (!inside) return result;
+  all.add_deviation(direction.deviation(result.max, result.farthest));
+  deviation.min = all.most_inside;
+  deviation.max = all.most_outside;
+  deviation.mean = samples.signed_sum / count;
+  result.deviation = std::move(deviation);
   return result;
 }
 
@@ -212,6 +252,15 @@ void require_measurable(const TriangleMesh& mesh, Side side) {
   if (!mesh.positions.allFinite()) {
     throw UnmeasurableSurface(side, "a coordinate is not a finite number");
   }
+}
+
+void require_closed(const TriangleMesh& second) {
+  const std::int64_t unclosed = unclosed_edges(second.triangles);
+  if (unclosed == 0) return;
+  throw UnmeasurableSurface(
+      Side::Second,
+      "it is not closed, so nothing is inside: " + counted(unclosed, "edge is", "edges are") +
+          " open, or between faces that are turned against each other");
 }
 
 /// A power of two that brings the largest coordinate near 1, where squares would not be numbers;
@@ -229,6 +278,10 @@ void scale_lengths(SurfaceDistance& distance, double scale) {
     }
     side->farthest *= scale;
     side->at_vertices *= scale;
+    if (!side->deviation) continue;
+    SignedDeviation& deviation = *side->deviation;
+    for (double* length : {&deviation.min, &deviation.max, &deviation.mean}) *length *= scale;
+    deviation.at_vertices *= scale;
   }
   distance.diagonal_first *= scale;
   distance.diagonal_second *= scale;
@@ -240,9 +293,12 @@ SurfaceDistance measure_in_range(const TriangleMesh& first, const TriangleMesh& 
   const RayScene first_scene(first);
   report(options.progress, "trees", 0.5);
   const RayScene second_scene(second);
+  std::optional<Enclosure> inside;
+  if (options.deviations) inside.emplace(second);
+  const Enclosure* const enclosed = inside ? &*inside : nullptr;
   SurfaceDistance result;
-  result.forth = measure_one_side(Side::First, first, second, second_scene, options);
-  result.back = measure_one_side(Side::Second, second, first, first_scene, options);
+  result.forth = measure_one_side(Side::First, first, second, second_scene, enclosed, options);
+  result.back = measure_one_side(Side::Second, second, first, first_scene, nullptr, options);
   result.diagonal_first = first_scene.diagonal();
   result.diagonal_second = second_scene.diagonal();
   return result;
@@ -262,6 +318,7 @@ SurfaceDistance measure_distance(const TriangleMesh& first, const TriangleMesh& 
   if (!(options.faces || options.edges || options.vertices) || options.samples < 1) {
     throw std::invalid_argument("measure_distance: no samples");
   }
+  if (options.deviations) require_closed(second);
   const double scale = common_scale(first, second);
   if (scale == 1) return measure_in_range(first, second, options);
   SurfaceDistance result = measure_in_range({scale * first.positions, first.triangles},

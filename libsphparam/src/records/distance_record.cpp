@@ -43,6 +43,18 @@ Json side_json(const OneSidedDistance& side, double own_diagonal, double other_d
             {"min", side.min / reference}}}};
 }
 
+/// The first as the second has it: with the side, where that was asked for.
+Json forth_json(const SurfaceDistance& distance) {
+  const OneSidedDistance& forth = distance.forth;
+  const double first = distance.diagonal_first;
+  Json json = side_json(forth, first, distance.diagonal_second, first);
+  if (forth.deviation)
+    json["signed"] = {{"max", forth.deviation->max},
+                      {"mean", forth.deviation->mean},
+                      {"min", forth.deviation->min}};
+  return json;
+}
+
 Json sampled_json(const DistanceOptions& options) {
   Json on = Json::array();
   if (options.faces) on.push_back("faces");
@@ -60,6 +72,12 @@ Json limits_json(const std::vector<DistanceLimit>& limits) {
                    {"exceeded", limit.exceeded()}});
   }
   return all;
+}
+
+std::string signed_line(const SignedDeviation& deviation) {
+  return "signed, of 1 from 2, less than 0 inside: from " + short_number(deviation.min, 6) +
+         " to " + short_number(deviation.max, 6) + ", mean " + short_number(deviation.mean, 6) +
+         "\n";
 }
 
 /// One line of the table: four lengths, each with its share of the diagonal.
@@ -90,7 +108,7 @@ std::string to_json(const DistanceRecord& record) {
                   {"first", mesh_json(record.first, record.first_file, first)},
                   {"second", mesh_json(record.second, record.second_file, second)},
                   {"sampled", sampled_json(record.options)},
-                  {"first_to_second", side_json(distance.forth, first, second, first)},
+                  {"first_to_second", forth_json(distance)},
                   {"second_to_first", side_json(distance.back, second, first, first)},
                   {"two_sided",
                    {{"RMS", distance.rms()},
@@ -120,7 +138,9 @@ std::string to_text(const DistanceRecord& record) {
   text += row("2 to 1", distance.back, distance.diagonal_first);
   text += row("larger", distance.max(), distance.mean(), distance.rms(),
               std::max(distance.forth.min, distance.back.min), distance.diagonal_first);
-  text += "\nfarthest: " + place_text(distance.forth.farthest, distance.diagonal_first, " ") +
+  text += "\n";
+  if (distance.forth.deviation) text += signed_line(*distance.forth.deviation);
+  text += "farthest: " + place_text(distance.forth.farthest, distance.diagonal_first, " ") +
           " of 1, " + place_text(distance.back.farthest, distance.diagonal_second, " ") +
           " of 2; no point is farther than " + short_number(distance.max_bound(), 6) + "\n";
   return text;

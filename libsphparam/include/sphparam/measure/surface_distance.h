@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -17,8 +18,19 @@ struct DistanceOptions {
   bool edges = false;     // … uniform over the edges, each once …
   bool vertices = false;  // … and the vertices that triangles use
   bool extremes = true;   // false: mean and RMS alone, in half the time
-  int threads = 0;        // 0: all cores
+  /// Also on which side of the second surface the points of the first are, which must be closed.
+  bool deviations = false;
+  int threads = 0;  // 0: all cores
   Progress progress = {};
+};
+
+/// How far the points of one surface are from a closed one: as far as they are, less than 0 inside
+/// of it. Inside is where it winds about a point, one way or the other: parts may overlap, and it
+/// may be inside out. On it, to the rounding of coordinates, is 0 or more.
+struct SignedDeviation {
+  double min = 0, max = 0;  // of all points that were looked at, `farthest` among them
+  double mean = 0;          // of the samples that `OneSidedDistance::mean` is of
+  VectorX at_vertices;      // of every vertex; empty where they were not looked at
 };
 
 /// How far the points of one surface are from another surface.
@@ -30,6 +42,7 @@ struct OneSidedDistance {
   std::int64_t samples = 0;            // those of mean and rms
   Vector3 farthest = Vector3::Zero();  // the point at `max`
   VectorX at_vertices;                 // of every vertex; empty where they were not looked at
+  std::optional<SignedDeviation> deviation = {};  // forth, where `deviations` are wanted
 };
 
 struct SurfaceDistance {
@@ -58,16 +71,17 @@ class UnmeasurableSurface : public std::invalid_argument {
 
 /// Measures how far two surfaces are apart, by samples of each and their exact nearest points on
 /// the other; then, with `extremes`, of each vertex, and the maximum is sought between the samples,
-/// by `find_farthest`. Neither needs to be closed. What is nearer than the rounding of a sample's
-/// own coordinates counts as 0: a surface is no distance from itself. Source: the measures of Metro
-/// (Cignoni, Rocchini and Scopigno 1998), as MeshLab has them; the samples are stratified by area.
-/// Requires: some sample wanted, samples ≥ 1. Throws: std::invalid_argument if not;
-/// UnmeasurableSurface where there is no triangle, one names a vertex that is not there, a
-/// coordinate is not finite, or what is to be sampled has no area or length; Cancelled. Ensures:
-/// the same bits for any number of threads. Cost: about 1 µs a sample and vertex, some times that
-/// among thin triangles, and with `extremes` up to 3 µs a sample for the bound; memory linear in
-/// the meshes, and up to 200 MB for the bound. A point that is equally far from many triangles, as
-/// a ball's centre is from the ball, asks all of them.
+/// by `find_farthest`. Neither needs to be closed, but for `deviations` the second. What is nearer
+/// than the rounding of a sample's own coordinates counts as 0: a surface is no distance from
+/// itself. Source: the measures of Metro (Cignoni, Rocchini and Scopigno 1998), as MeshLab has
+/// them; the samples are stratified by area. Requires: some sample wanted, samples ≥ 1. Throws:
+/// std::invalid_argument if not; UnmeasurableSurface where there is no triangle, one names a vertex
+/// that is not there, a coordinate is not finite, what is to be sampled has no area or length, or
+/// the second is to be closed and is not; Cancelled. Ensures: the same bits for any number of
+/// threads. Cost: about 1 µs a sample and vertex, some times that among thin triangles, with
+/// `extremes` up to 3 µs a sample for the bound, and about 10 µs for the side of each; memory
+/// linear in the meshes, and up to 200 MB for the bound. A point that is equally far from many
+/// triangles, as a ball's centre is from the ball, asks all of them.
 SurfaceDistance measure_distance(const TriangleMesh& first, const TriangleMesh& second,
                                  const DistanceOptions& options = {});
 

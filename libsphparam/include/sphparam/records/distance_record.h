@@ -30,7 +30,8 @@ struct DistanceRecord {
 };
 
 /// As `sphparam measure --json` tells it. Keys of each direction as MeshLab has them: RMS, max,
-/// mean, min, n_samples, diag_mesh_0 (of the mesh sampled) and diag_mesh_1.
+/// mean, min, n_samples, diag_mesh_0 (of the mesh sampled) and diag_mesh_1. `signed` of the first
+/// to the second where the side was asked for.
 std::string to_json(const DistanceRecord& record);
 
 /// A table for people.
