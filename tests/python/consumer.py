@@ -13,6 +13,10 @@ def told(stage: str, fraction: float) -> Optional[bool]:
     return fraction < 0.5
 
 
+def mesh_of(m: sp.SphereMap) -> sp.Mesh:
+    return m.mesh
+
+
 def use(vertices: Floats, faces: npt.NDArray[np.int64]) -> None:
     m: sp.SphereMap = sp.map(vertices, faces, balance="equal-area", pins={3: (0.0, 1.0)}, progress=told)
     again: sp.SphereMap = sp.map(m.mesh, repair={"largest_hole": 40}, threads=2)
@@ -37,6 +41,10 @@ def use(vertices: Floats, faces: npt.NDArray[np.int64]) -> None:
     uv: Floats = chart.uv
     distance: sp.Distance = sp.measure(m, (vertices, faces))
     rms: float = distance.forth.rms
+    side: Optional[sp.Deviation] = sp.measure(m, mesh_of(m), signed=True).forth.deviation
+    sides: Optional[Floats] = side.at_vertices if side else distance.forth.at_vertices
+    radius: float = m.spharm(20, radius=True, centre=(0, 0, 1)).reference_radius
+    places: sp.Landmarks = sp.group([m, low]).landmarks([3, 4])
     mended: sp.Mesh = sp.repair(vertices, faces, handle_choice="cut")
     found: sp.Inspection = sp.inspect(mended)
     proof: sp.Certificate = sp.verify("statue.sph.ply")
@@ -49,7 +57,7 @@ def use(vertices: Floats, faces: npt.NDArray[np.int64]) -> None:
     radial: Optional[sp.Radial] = sp.map(surface, method="radial", centre=(0, 0, 1)).radial
     where: str = open_map.bake("elevation", body="vesta", unit="km").convention
     open_map.save("open.obj", holes="drop")
-    print(marks, radial, where, normals)
+    print(marks, radial, where, normals, sides, radius, places.points, sp.read("a.ply", limits={"vertices": 1000}))
     page: str = m.show()
     print(again, one, mean, ratios, stage, poles, carried, face, weights, picture, written, baked, lack)
     print(values, uv, rms, found, proof, page, sp.fields(), sp.__version__)

@@ -57,6 +57,25 @@ def test_sizes_are_those_of_each_shape_alone_and_scale_brings_all_to_their_mean(
     assert [size_by_area(shape, faces) for shape in scaled.aligned] == pytest.approx([one] * len(shapes))
 
 
+def test_landmarks_of_the_template_are_found_on_all_shapes(group, shapes):
+    places = group.landmarks([3, 40, 3])
+    assert places.points.shape == (3, 3, 3) and places.faces.shape == places.nearest.shape == (3, 3)
+    assert (places.points[0, :2] == shapes[0].vertices[[3, 40]]).all() and places.nearest[0].tolist() == [3, 40, 3]
+    for i, shape in enumerate(group.shapes):
+        corners = shape.vertices[shape.faces[places.faces[i]]]
+        assert np.allclose((places.weights[i][..., None] * corners).sum(1), places.points[i])
+        away = np.linalg.norm(shape.vertices[:, None] - places.points[i], axis=2)
+        assert (away.argmin(0) == places.nearest[i]).all()
+    assert (places.points[:, 0] == places.points[:, 2]).all()
+    assert group.landmarks([]).points.shape == (3, 0, 3)
+    with pytest.raises(ValueError, match="vertices: 0 to"):
+        group.landmarks([len(group.template.vertices)])
+    with pytest.raises(TypeError, match="vertices: a whole number"):
+        group.landmarks([0.5])
+    with pytest.raises(TypeError, match="vertices: a list of vertices"):
+        group.landmarks(3)
+
+
 def test_the_same_for_any_number_of_threads(shapes, group):
     one = sp.group(shapes, start="rotation", grid="ico:4", threads=1)
     assert (one.aligned == group.aligned).all()

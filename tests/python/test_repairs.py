@@ -91,6 +91,18 @@ def test_figures_are_of_the_surface_alone(holed):
     assert sp.measure(holed.mesh, opened(), samples=1000).max == 0
 
 
+def test_the_mesh_of_a_map_knows_all_that_was_done_to_it(holed):
+    split = sp.map(V[F].reshape(-1, 3), np.arange(F.size).reshape(-1, 3)[10:], repair=True)
+    kinds = [action.kind for action in split.repairs]
+    assert kinds[0] == "vertex-welded" and "hole-filled" in kinds
+    for made in (split, holed):
+        for mesh in (made.mesh, made.surface, made.mesh.surface):
+            assert mesh.repairs == made.repairs and len(mesh.handles) == len(made.handles)
+            assert mesh.area_share == made.mesh.area_share
+    mended = sp.repair(V, F[10:])
+    assert sp.map(mended).mesh.added_share == mended.added_share > 0
+
+
 def test_images_are_transparent_where_holes_are(holed, tmp_path):
     for field, channels in (("height", 2), ("normal-object", 4)):
         image = holed.bake(field, size=256, interpolation="sphere")

@@ -450,6 +450,71 @@ def test_a_surface_is_no_distance_from_itself(mapped):
     assert 0 < farther.rms < farther.max <= farther.max_bound and farther.forth.samples > 0
 
 
+def test_the_distance_of_every_vertex_and_its_side(mapped):
+    larger = 1.1 * V
+    inside = sp.measure(mapped, (larger, F), samples=2000, signed=True)
+    assert inside.back.deviation is None and inside.back.at_vertices.shape == (len(V),)
+    side = inside.forth.deviation
+    assert (side.at_vertices == -inside.forth.at_vertices).all() and (side.at_vertices < 0).all()
+    assert (side.min, side.max, side.mean) == (-inside.forth.max, -inside.forth.min, -inside.forth.mean)
+    outside = sp.measure((larger, F), mapped, samples=2000, signed=True).forth
+    assert (outside.deviation.at_vertices == outside.at_vertices).all()
+    assert (inside.back.at_vertices == outside.at_vertices).all()
+    assert sp.measure(mapped, (larger, F), samples=2000).forth.deviation is None
+    alone = sp.measure(mapped, (larger, F), samples=2000, signed=True, extremes=False).forth
+    assert alone.at_vertices is None and alone.deviation.at_vertices is None and alone.deviation.mean == side.mean
+    assert sp.measure((V, F[1:]), mapped, samples=100, signed=True).forth.deviation.mean == 0
+    with pytest.raises(ValueError, match="second: it is not closed, so nothing is inside: 3 edges are open"):
+        sp.measure(mapped, (V, F[1:]), samples=100, signed=True)
+
+
+def test_the_radius_as_planetary_science_has_it(tmp_path):
+    body = sp.map(V + [0, 0, 5.0], F, method="radial", centre=(0, 0, 5))
+    (tmp_path / "body").mkdir()
+    body.save(tmp_path / "a.sph.ply")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        shape = body.spharm(6, radius=True)
+    assert shape.functions == ["x", "y", "z", "radius"] and shape.centre == (0, 0, 5)
+    assert shape.reference_radius == shape.coefficients[0, 3] / np.sqrt(4 * np.pi)
+    assert np.allclose(shape.reconstructed[:, 3], np.linalg.norm(V, axis=1), atol=0.2)
+    shape.save_shadr(tmp_path / "ours.sha")
+    program("spharm", "a.sph.ply", "--degree", "6", "--shadr", "theirs.sha", cwd=tmp_path)
+    assert (tmp_path / "ours.sha").read_bytes() == (tmp_path / "theirs.sha").read_bytes()
+    assert float((tmp_path / "ours.sha").read_text().split(",")[0]) == shape.reference_radius
+    with pytest.warns(sp.LossWarning, match="longitudes of these harmonics are the map's, not the body's: they are"):
+        elsewhere = body.spharm(2, radius=True, centre=(0, 0, 5.5))
+    assert elsewhere.centre == (0, 0, 5.5)
+    with pytest.raises(ValueError, match="radius was not expanded"):
+        body.spharm(2).reference_radius
+    with pytest.raises(ValueError, match="centre: it is that of the radius"):
+        body.spharm(2, centre=(0, 0, 5))
+    with pytest.raises(ValueError, match="which align turns"):
+        body.spharm(2, radius=True, align=True).save_shadr(tmp_path / "b.sha")
+    with pytest.raises(sp.WriteError):
+        shape.save_shadr(tmp_path / "body")
+
+
+def test_files_of_strangers_are_read_within_limits(mapped, tmp_path):
+    path = tmp_path / "a.sph.ply"
+    mapped.save(path)
+    count = len(V)
+    assert len(sp.read(path, limits={"vertices": count}).vertices) == count
+    for use in (sp.read, sp.load, sp.verify):
+        with pytest.raises(sp.ReadError, match="1026 records of element .vertex. are over the limit of 1025"):
+            use(path, limits={"vertices": count - 1})
+        with pytest.raises(sp.ReadError, match=r"limits=dict\(file=N\)"):
+            use(path, limits={"file": 1000})
+        with pytest.raises(ValueError, match="limits: no 'polygons' among file, vertices, faces"):
+            use(path, limits={"polygons": 3})
+    with pytest.raises(TypeError, match="limits: a dict is needed, not int"):
+        sp.read(path, limits=3)
+    with pytest.raises(TypeError, match=r"limits\['faces'\]: a whole number"):
+        sp.read(path, limits={"faces": 1e3})
+    with pytest.raises(ValueError, match=r"limits\['faces'\]: 1 to"):
+        sp.read(path, limits={"faces": 0})
+
+
 def test_harmonics_are_evaluated_where_the_vertices_are(mapped):
     shape = mapped.spharm(12, values=["height"])
     assert shape.functions == ["x", "y", "z", "height"] and shape.coefficients.shape == (169, 4)

@@ -80,6 +80,7 @@ class Mapped {
   const Making& making() const { return state_->making; }  // by the library's call
   const std::vector<RepairAction>& repairs() const { return state_->repairs; }
   const std::vector<HandleLoop>& handles() const { return state_->handles; }
+  double added_share() const { return state_->added_share; }
 
  private:
   struct State {
@@ -93,6 +94,7 @@ class Mapped {
     Making making = {};
     std::vector<RepairAction> repairs = {};
     std::vector<HandleLoop> handles = {};
+    double added_share = 0;
   };
   void make_mesh() const;
   std::shared_ptr<State> state_;
@@ -187,6 +189,9 @@ class Settings {
   const py::dict& values_;
   py::set known_;
 };
+
+/// Limits of what is read, by their names.
+void take_limits(const py::dict& limits, ReadOptions& options);
 
 /// What images of glTF files are made.
 void take_textures(Settings& settings, TextureFormat& format, int& quality);

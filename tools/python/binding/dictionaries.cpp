@@ -9,6 +9,12 @@
 namespace sphparam::python {
 namespace {
 
+/// None of no numbers.
+py::object numbers_or_none(const VectorX& values) {
+  if (values.size() == 0) return py::none();
+  return owning(std::vector<double>(values.begin(), values.end()));
+}
+
 py::dict as_dict(const OneSidedDistance& distance) {
   py::dict dict;
   dict["rms"] = distance.rms;
@@ -19,6 +25,11 @@ py::dict as_dict(const OneSidedDistance& distance) {
   dict["samples"] = distance.samples;
   dict["farthest"] =
       py::make_tuple(distance.farthest.x(), distance.farthest.y(), distance.farthest.z());
+  dict["at_vertices"] = numbers_or_none(distance.at_vertices);
+  dict["deviation"] = py::none();
+  if (const auto& deviation = distance.deviation)
+    dict["deviation"] = py::make_tuple(deviation->min, deviation->max, deviation->mean,
+                                       numbers_or_none(deviation->at_vertices));
   return dict;
 }
 

@@ -32,6 +32,7 @@ Mapped::Mapped(MeshSource source, Topology topology, Provenance provenance, Para
   state_->threads = threads;
   state_->repairs = std::move(source.repairs);
   state_->handles = std::move(source.handles);
+  state_->added_share = source.added_share;
 }
 
 void Mapped::make_mesh() const {
@@ -124,6 +125,9 @@ std::unique_ptr<Source> source_of_mapped(const Mapped& mapped, bool whole) {
   const MeshFile& file = mapped.mesh().file();
   source->mesh.file = whole ? file : without_fillers(file);
   source->mesh.path = mapped.mesh().name();
+  source->mesh.repairs = mapped.repairs();
+  source->mesh.handles = mapped.handles();
+  source->mesh.added_share = mapped.added_share();
   return source;
 }
 

@@ -121,9 +121,10 @@ Mapped map(Source& source, bool taken, const py::dict& values, const py::object&
 }
 
 /// A mesh and the map that its file or another one has; one is made where there is none.
-Mapped load(const FilePath& path, const FilePath& sphere, const py::dict& values,
-            const py::object& progress) {
+Mapped load(const FilePath& path, const FilePath& sphere, const py::dict& limits,
+            const py::dict& values, const py::object& progress) {
   LoadOptions options{.sphere = sphere, .map = map_request_of(values).options};
+  take_limits(limits, options.read);
   return call(progress, [path, options](const Progress& report) mutable {
     options.map.progress = report;
     return Mapped(load_mapped(path, options));
@@ -192,9 +193,12 @@ py::dict certify_points(const Source& source, const py::array& rays, int threads
 }
 
 /// Who reads theta and phi that are not those of the rays has another map: it does not hold then.
-py::dict verify_file(const FilePath& path, const FilePath& sphere, int threads) {
+py::dict verify_file(const FilePath& path, const FilePath& sphere, const py::dict& limits,
+                     int threads) {
+  ReadOptions read;
+  take_limits(limits, read);
   const VerifiedMap found = call(py::none(), [=](const Progress&) {
-    return verify_map(path, {.sphere = sphere, .threads = threads});
+    return verify_map(path, {.sphere = sphere, .read = read, .threads = threads});
   });
   py::dict dict = as_dict(found.certificate);
   if (found.certificate.bijective() && !found.holds()) {

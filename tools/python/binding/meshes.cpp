@@ -31,8 +31,10 @@ py::tuple source_of(const py::array& vertices, const py::array& faces) {
   return py::make_tuple(std::move(source), finite, inside);
 }
 
-std::unique_ptr<Source> read(const FilePath& path, bool repeated_corners, bool non_finite) {
+std::unique_ptr<Source> read(const FilePath& path, bool repeated_corners, bool non_finite,
+                             const py::dict& limits) {
   ReadOptions options;
+  take_limits(limits, options);
   options.repeated_corners = repeated_corners;
   options.non_finite = non_finite;
   return call(py::none(), [path, options](const Progress&) {
@@ -101,6 +103,9 @@ std::unique_ptr<Source> surface(const Source& source) {
   auto made = std::make_unique<Source>();
   made->mesh.file = without_fillers(source.mesh.file);
   made->mesh.path = source.mesh.path;
+  made->mesh.repairs = source.mesh.repairs;
+  made->mesh.handles = source.mesh.handles;
+  made->mesh.added_share = source.mesh.added_share;
   return made;
 }
 
@@ -125,6 +130,22 @@ bool is_sound(const MeshInspection& found) {
     return defect.kind == DefectKind::NonFinitePosition ||
            defect.kind == DefectKind::IndexOutOfRange;
   });
+}
+
+void take_limits(const py::dict& limits, ReadOptions& options) {
+  Settings settings(limits);
+  settings.take("file", options.max_file_bytes)
+      .take("vertices", options.max_vertices)
+      .take("faces", options.max_faces)
+      .take("degree", options.max_polygon_degree)
+      .take("line", options.max_line_bytes)
+      .take("ply_elements", options.max_ply_elements)
+      .take("ply_properties", options.max_ply_properties)
+      .take("json", options.max_json_bytes)
+      .take("json_depth", options.max_json_depth)
+      .take("json_values", options.max_json_values)
+      .take("json_objects", options.max_json_objects);
+  settings.require_all_known();
 }
 
 void declare_meshes(py::module_& module) {

@@ -21,6 +21,7 @@ _typed_here = {
     "--repair=orientation turns it over": "repair=True where it is mapped turns it over",
     "`sphparam repair` turns it over": "repair(read(path)) turns it over, save makes a file of it",
     "`sphparam bake --map normal-tangent` makes it": 'bake("normal-tangent") makes it',
+    "; `--limit file=N` raises it": "; read(path, limits=dict(file=N)) raises it",
     "`sphparam bake --normal-y gl` makes it so": "without normal_y_down it is baked so",
 }
 """Options of the program in messages of the library, and what is typed here."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple, Optional, Tuple
+from typing import TYPE_CHECKING, Any, Dict, NamedTuple, Optional, Tuple
 
 from ._attributes import document
 from ._errors import Defect
@@ -187,6 +187,19 @@ class HandleLoop(NamedTuple):
     """(k, 3) in order."""
 
 
+class Deviation(NamedTuple):
+    """How far the points of a surface are from a closed one, less than 0 inside of it, in units of the mesh."""
+
+    min: float
+    """The least: farthest inside, of all points that were looked at."""
+    max: float
+    """The greatest: farthest outside."""
+    mean: float
+    """Of the samples."""
+    at_vertices: Optional[Floats]
+    """(V,) of every vertex; None without ``extremes``."""
+
+
 class OneSided(NamedTuple):
     """How far the points of one surface are from another one, in units of the mesh."""
 
@@ -204,6 +217,10 @@ class OneSided(NamedTuple):
     """How many points mean and rms are of."""
     farthest: Tuple[float, float, float]
     """The point at ``max``."""
+    at_vertices: Optional[Floats] = None
+    """(V,) the distance of every vertex, also of those that no face uses; None without ``extremes``."""
+    deviation: Optional[Deviation] = None
+    """The same distances with their side, with ``signed`` and from the first to the second; else None."""
 
 
 class Distance(NamedTuple):
@@ -223,6 +240,25 @@ class Distance(NamedTuple):
     """From the first to the second."""
     back: OneSided
     """From the second to the first."""
+
+
+def one_sided(found: Dict[str, Any]) -> OneSided:
+    """What the library tells of one way."""
+    deviation = found.pop("deviation")
+    return OneSided(**found, deviation=None if deviation is None else Deviation(*deviation))
+
+
+class Landmarks(NamedTuple):
+    """Where k places of a template are on the n shapes of a group."""
+
+    points: Floats
+    """(n, k, 3) places on the surfaces, in the coordinates of each shape."""
+    faces: Ints
+    """(n, k) the faces that they lie in."""
+    weights: Floats
+    """(n, k, 3) barycentric weights of the corners of these."""
+    nearest: Ints
+    """(n, k) of all vertices of each shape that which is nearest in space; it need not be a corner of the face."""
 
 
 class BakedFile(NamedTuple):

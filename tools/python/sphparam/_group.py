@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence
+from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence, Tuple
 
 from . import _arrays, _core
 from ._attributes import document
+from ._figures import Landmarks
 from ._losses import tell
 from ._map_facts import mapped_of
+from ._numpy import np
 from ._progress import Progress, told
 from ._sphere_map import SphereMap
 
 if TYPE_CHECKING:
-    from ._map_facts import Floats
+    from ._map_facts import Floats, Ints
 
 
 class Group:
@@ -60,8 +62,24 @@ class Group:
         shape: Floats = self.mean.vertices + deviations * self.modes[mode]
         return shape
 
+    def landmarks(self, vertices: Sequence[int], *, threads: int = 0) -> Landmarks:
+        """Where vertices of the template are on every shape: (k,) numbers of rows of ``template.vertices``."""
+        last = len(self.template.vertices) - 1
+        chosen = [_arrays.whole(v, "vertices", 0, last) for v in _arrays.listed(vertices, "vertices", "vertices")]
+        directions = self.template.points[chosen]
+        rows = [_landmarks(shape, directions, threads) for shape in self.shapes]
+        return Landmarks(*(np.stack(column) for column in zip(*rows)))
+
     def __repr__(self) -> str:
         return f"<sphparam.Group: {len(self.shapes)} shapes, {len(self.mean.vertices)} vertices, {len(self.modes)} modes>"
+
+
+def _landmarks(shape: SphereMap, directions: Floats, threads: int) -> Tuple[Floats, Ints, Floats, Ints]:
+    """A row of :class:`Landmarks`."""
+    faces, weights = shape.locate(directions, threads=threads)
+    points = (weights[:, :, None] * shape.vertices[shape.faces[faces]]).sum(axis=1)
+    nearest = [np.argmin(((shape.vertices - point) ** 2).sum(axis=1)) for point in points]
+    return points, faces, weights, np.array(nearest, np.int32)
 
 
 def group(
@@ -102,7 +120,8 @@ def group(
     modes
         At most so many are kept.
 
-    Warnings tell what is to be looked at, with the number of the shape.
+    Warnings tell what is to be looked at, with the number of the shape. :meth:`Group.landmarks` finds vertices of
+    the template on all shapes.
     """
     maps = [mapped_of(shape, f"shapes[{i}]") for i, shape in enumerate(_arrays.listed(shapes, "shapes", "maps"))]
     if not maps:

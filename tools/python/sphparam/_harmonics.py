@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Dict, List, Tuple
+import math
+from typing import TYPE_CHECKING, Any, Dict, List, Optional, Tuple
 
 from . import _arrays, _core
 from ._attributes import document
+from ._mesh import Path, path_of
 from ._numpy import np
 
 if TYPE_CHECKING:
@@ -24,7 +26,7 @@ class Harmonics:
 
     def __init__(self, found: Dict[str, Any]) -> None:
         self.functions: List[str] = found["functions"]
-        """What the columns are: ``"x"``, ``"y"``, ``"z"``, then values by name."""
+        """What the columns are: ``"x"``, ``"y"``, ``"z"``, then values by name, ``"radius"`` last."""
         self.coefficients: Floats = found["coefficients"]
         """((L + 1)², k): row l² + l + m has the coefficients of Y_lm."""
         self.power: Floats = found["power"]
@@ -39,11 +41,35 @@ class Harmonics:
         """Of the bounding box: what to hold ``rms`` against."""
         self.ellipsoid: Tuple[float, float, float] = found["ellipsoid"]
         """Semi-axes of the first-order ellipsoid, descending."""
+        self.centre: Optional[Tuple[float, float, float]] = found["centre"]
+        """What ``"radius"`` is the distance from, in the mesh's coordinates; None where it was not expanded."""
+        self.aligned: bool = found["aligned"]
+        """Whether sphere and surface were turned onto the ellipsoid's axes."""
 
     @property
     def degree(self) -> int:
         """L."""
         return len(self.power) - 1
+
+    @property
+    def reference_radius(self) -> float:
+        """C₀₀ of the radius, 4π-normalised: its mean over the sphere, in units of the mesh."""
+        return float(self._radius()[0]) / math.sqrt(4 * math.pi)
+
+    def _radius(self) -> Floats:
+        if self.centre is None:
+            raise ValueError("the radius was not expanded: m.spharm(degree, radius=True)")
+        column: Floats = np.ascontiguousarray(self.coefficients[:, -1], np.float64)
+        return column
+
+    def save_shadr(self, path: Path) -> None:
+        """Writes C and S of the radius as a table of the PDS, 4π-normalised, in units of the mesh.
+
+        Raises ValueError where the radius was not expanded, or the sphere turned by ``align``; :class:`WriteError`.
+        """
+        if self.aligned:
+            raise ValueError("align: such a table is of the body's own longitudes and latitudes, which align turns")
+        _core.write_shadr(path_of(path), self._radius())
 
     def __call__(self, directions: Any, *, threads: int = 0) -> Floats:
         """(n, k) what the harmonics have in directions, (n, 3) of any length but 0."""

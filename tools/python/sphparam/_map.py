@@ -10,7 +10,7 @@ from . import _arrays, _core
 from ._figures import Certificate
 from ._losses import tell
 from ._map_options import requested
-from ._mesh import Path, any_mesh, existing, path_of
+from ._mesh import Path, any_mesh, existing, path_of, read_limits
 from ._progress import Progress, told
 from ._repair import mended, repair_option_names, repair_options
 from ._sphere_map import SphereMap
@@ -152,18 +152,21 @@ def load(
     *,
     balance: Union[str, float] = "balanced",
     quality: str = "normal",
+    limits: Optional[Mapping[str, int]] = None,
     threads: int = 0,
     progress: Progress = None,
 ) -> SphereMap:
     """Reads a mesh and the map that it carries, and proves it; one is made where there is none, with a warning.
 
-    ``sphere``: the file with the sphere of the mesh, of the same connectivity (FreeSurfer, HCP).
+    ``sphere``: the file with the sphere of the mesh, of the same connectivity (FreeSurfer, HCP). ``limits``: as of
+    :func:`read`.
     Raises :class:`ReadError`, :class:`MeshError`, :class:`NotCertified`.
     """
     options = requested(balance=balance, quality=quality, threads=threads)
     other = existing(sphere) if sphere is not None else ""
+    bounds = read_limits(limits)
     with told(progress) as report:
-        made = SphereMap._of(_core.load(existing(path), other, options, report))
+        made = SphereMap._of(_core.load(existing(path), other, bounds, options, report))
     if made._mapped.mapped_here:
         tell([f"{path_of(path)}: carries no map, so another one was made; .sph.ply brings a map back"])
     return made
@@ -180,7 +183,9 @@ def with_sphere(mesh: Any, points: Any, *, faces: Any = None, threads: int = 0) 
     return SphereMap._of(_core.with_points(found._source, rays, _arrays.threads(threads)))
 
 
-def verify(mesh: Any, faces: Any = None, points: Any = None, *, threads: int = 0) -> Certificate:
+def verify(
+    mesh: Any, faces: Any = None, points: Any = None, *, limits: Optional[Mapping[str, int]] = None, threads: int = 0
+) -> Certificate:
     """Proves a map again, ours or anybody's; what is not one-to-one is a value, not an exception.
 
     ``verify(vertices, faces, points)``, ``verify(mesh, points=points)``, a :class:`SphereMap`, or a
@@ -189,16 +194,16 @@ def verify(mesh: Any, faces: Any = None, points: Any = None, *, threads: int = 0
 
     Of a file, ``theta`` and ``phi`` that are not those of ``sx sy sz`` make another map of it: it is not
     ``one_to_one`` then. Poles, meridian and verdict of its header that are not so, and points on no
-    sphere about the origin, are told as :class:`LossWarning`.
+    sphere about the origin, are told as :class:`LossWarning`. ``limits``: of files, as of :func:`read`.
     """
-    count = _arrays.threads(threads)
+    count, bounds = _arrays.threads(threads), read_limits(limits)
     if isinstance(mesh, (str, os.PathLike)):
         if faces is not None:
             raise TypeError("faces: the file has its own; points=FILE is its sphere")
         if points is not None and not isinstance(points, (str, os.PathLike)):
             raise TypeError(f"points: of a file its sphere is one too, not {type(points).__name__}; verify(read(path), points=…) takes arrays")
         sphere = existing(points) if points is not None else ""
-        found = _core.verify_file(existing(mesh), sphere, count)
+        found = _core.verify_file(existing(mesh), sphere, bounds, count)
         tell(found.pop("warnings"))
         return Certificate(**found)
     if points is None and isinstance(mesh, SphereMap):

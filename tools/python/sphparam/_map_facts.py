@@ -119,7 +119,10 @@ class MapFacts:
     @property
     def mesh(self) -> Mesh:
         """The mesh alone, a copy."""
-        made = Mesh._of(_core.source_of_mapped(self._mapped, True), share=self._found.get("share", 1.0))
+        return self._as_mesh(True)
+
+    def _as_mesh(self, whole: bool) -> Mesh:
+        made = Mesh._of(_core.source_of_mapped(self._mapped, whole), share=self._found.get("share", 1.0))
         made._welds = self._found.get("welds", ())
         return made
 
@@ -132,7 +135,7 @@ class MapFacts:
     @property
     def surface(self) -> Mesh:
         """The mesh without its fillers, a copy: with its holes where these were kept."""
-        return Mesh._of(_core.source_of_mapped(self._mapped, False))
+        return self._as_mesh(False)
 
     @property
     def name(self) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Iterable, List, Sequence, Union
+from typing import TYPE_CHECKING, Any, Iterable, List, Optional, Sequence, Tuple, Union
 
 from . import _arrays, _core
 from ._losses import tell
@@ -101,6 +101,8 @@ class MapGrids(MapFacts):
         values: Sequence[str] = (),
         least_squares: bool = True,
         align: bool = False,
+        radius: bool = False,
+        centre: Optional[Tuple[float, float, float]] = None,
         threads: int = 0,
         progress: Progress = None,
     ) -> Harmonics:
@@ -108,20 +110,30 @@ class MapGrids(MapFacts):
 
         ``values``: names of what vertices carry, expanded too. ``least_squares``: at the vertices;
         else by quadrature. ``align``: sphere and surface turned onto the axes of the first-order
-        ellipsoid, so that coefficients do not depend on how mesh and map lay.
+        ellipsoid, so that coefficients do not depend on how mesh and map lay. ``radius``: the distance from
+        ``centre`` too (None: that of a radial map, else the origin), as planetary science has shapes; of a map of
+        ``method="radial"`` by the body's own longitudes and latitudes, and a warning tells how far others are off.
         """
         from ._harmonics import Harmonics
 
         names = [column for name in _names(values, "values") for column in self.values.columns(name)]
         degree = _arrays.whole(degree, "degree", 1 if align else 0, 1000)
         self._warn_of_few_vertices(degree, least_squares)
+        about = None if centre is None else _arrays.three(centre, "centre")
+        if about is not None and not radius:
+            raise ValueError("centre: it is that of the radius: radius=True")
         if self.fillers.any():
             tell([f"{self.name}: harmonics are of the whole sphere, with what closes the holes"])
         with told(progress) as report:
             found = _core.expand(
-                self._mapped, degree, names, _arrays.flag(least_squares, "least_squares"), _arrays.flag(align, "align"), _arrays.threads(threads), report
+                self._mapped, degree, names, _arrays.flag(least_squares, "least_squares"), _arrays.flag(align, "align"),
+                _arrays.flag(radius, "radius"), about, _arrays.threads(threads), report,  # fmt: skip
             )
         tell(found["doubts"])
+        if found["degrees_off"] >= 1e-4:
+            off = f"they are {found['degrees_off']:.3g}° from these (RMS over the surface); method=\"radial\" has them"
+            tell([f"the longitudes of these harmonics are the map's, not the body's: {off}"])
+        found["aligned"] = align
         return Harmonics(found)
 
     def _transferred(self, transfer: Union[str, Iterable[str]]) -> List[str]:

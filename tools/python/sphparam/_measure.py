@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from . import _arrays, _core
-from ._figures import Distance, OneSided
+from ._figures import Distance, one_sided
 from ._mesh import any_mesh
 from ._progress import Progress, told
 
@@ -17,6 +17,7 @@ def measure(
     samples: int = 1_000_000,
     seed: int = 1,
     extremes: bool = True,
+    signed: bool = False,
     threads: int = 0,
     progress: Progress = None,
 ) -> Distance:
@@ -30,6 +31,12 @@ def measure(
         On the faces of each, from 1.
     extremes
         False: RMS and mean alone, in half the time.
+    signed
+        Also on which side of the second surface the points of the first are, less than 0 inside:
+        ``forth.deviation``. The second must be closed (else ValueError), the first need not.
+
+    ``forth.at_vertices`` has the distance of every vertex of the first from the second, ``back.at_vertices`` the
+    other way.
     """
     samples, seed = _arrays.whole(samples, "samples", 1, 2**63 - 1), _arrays.whole(seed, "seed", 0, 2**64 - 1)
     meshes = [any_mesh(mesh, None) for mesh in (first, second)]
@@ -37,7 +44,8 @@ def measure(
         mesh._require_sound()
     with told(progress) as report:
         found = _core.measure(
-            meshes[0]._source, meshes[1]._source, samples, seed, _arrays.flag(extremes, "extremes"), _arrays.threads(threads), report
+            meshes[0]._source, meshes[1]._source, samples, seed, _arrays.flag(extremes, "extremes"), _arrays.flag(signed, "signed"),
+            _arrays.threads(threads), report,  # fmt: skip
         )
-    found["forth"], found["back"] = OneSided(**found["forth"]), OneSided(**found["back"])
+    found["forth"], found["back"] = one_sided(found["forth"]), one_sided(found["back"])
     return Distance(**found)

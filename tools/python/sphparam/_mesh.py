@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, List, Mapping, NoReturn, Optional, Tuple, Union
+from typing import TYPE_CHECKING, Any, Dict, List, Mapping, NoReturn, Optional, Tuple, Union
 
 from . import _arrays, _core, _values
 from ._errors import Defect, MeshError, ReadError, WriteError, as_typed_here
@@ -301,7 +301,26 @@ def _with_values(mesh: Mesh, values: Optional[Mapping[str, Any]]) -> Mesh:
     return mesh
 
 
-def read(path: Path, *, repeated_corners: bool = False, non_finite: bool = False) -> Mesh:
+_limits = (
+    "file", "vertices", "faces", "degree", "line", "ply_elements", "ply_properties", "json", "json_depth", "json_values", "json_objects",
+)  # fmt: skip
+
+
+def read_limits(limits: Optional[Mapping[str, int]]) -> Dict[str, int]:
+    """Of what is read, looked at."""
+    if limits is None:
+        return {}
+    if not isinstance(limits, Mapping):
+        raise TypeError(f"limits: a dict is needed, not {type(limits).__name__}")
+    for name in limits:
+        if name not in _limits:
+            raise ValueError(f"limits: no {name!r} among {', '.join(_limits)}")
+    return {name: _arrays.whole(limit, f"limits[{name!r}]", 1, 2**63 - 1) for name, limit in limits.items()}
+
+
+def read(
+    path: Path, *, repeated_corners: bool = False, non_finite: bool = False, limits: Optional[Mapping[str, int]] = None
+) -> Mesh:
     """Reads a mesh: OBJ, PLY, OFF, STL, glTF, FBX, COLLADA, VTK, GIFTI, FreeSurfer, MZ3, ICQ or plate table, in gzip or not, by content.
 
     Copies of vertices are welded where the faces have open edges otherwise, vertices that no face uses
@@ -309,12 +328,18 @@ def read(path: Path, *, repeated_corners: bool = False, non_finite: bool = False
     vertex twice are refused unless ``repeated_corners``, coordinates that are no finite numbers unless
     ``non_finite``: then :func:`repair` can remove them.
 
+    ``limits``: of files of strangers, beyond which one is refused before memory is spent on it, as in
+    ``limits=dict(vertices=500_000)``: bytes of the ``file``, also unpacked (default: 2 GiB), ``vertices`` and ``faces``
+    (2²⁸), the ``degree`` of a face (65536), bytes of a ``line`` of text (1 MiB), ``ply_elements`` (64), ``ply_properties`` of
+    one (256); of glTF the bytes of its ``json`` (64 MiB), ``json_depth`` (64), ``json_values`` (2²⁰), ``json_objects`` (2¹⁷).
+
     Raises FileNotFoundError, :class:`ReadError` with the place. Warns, as :class:`LossWarning`, of what
     the file carries and a mesh has no room for.
     """
     repeats, others = _arrays.flag(repeated_corners, "repeated_corners"), _arrays.flag(non_finite, "non_finite")
+    bounds = read_limits(limits)
     try:
-        source = _core.read(existing(path), repeats, others)
+        source = _core.read(existing(path), repeats, others, bounds)
     except ReadError as error:
         raise ReadError(_as_typed_here(str(error))) from None
     tell(f"{path_of(path)}: {loss}" for loss in source.losses)

@@ -33,7 +33,7 @@ def welded(mesh: Mesh) -> Optional[Mesh]:
     with tempfile.TemporaryDirectory(prefix="sphparam-") as folder:
         path = os.path.join(folder, "mesh.ply")
         _core.write(mesh._source, path)
-        source = _core.read(path, True, False)
+        source = _core.read(path, True, False, {"file": 2**62})
     if not any(note.startswith("welded") for note in source.notes):
         return None
     source.path = mesh.path

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple, Tuple
 
 from . import _arrays, _core
 from ._attributes import document
-from ._figures import Distance, OneSided
+from ._figures import Distance, one_sided
 from ._mesh import Mesh, any_mesh
 from ._progress import Progress, told
 
@@ -95,7 +95,7 @@ def wrap(
     with told(progress) as report:
         source, figures = _core.wrap(soup._source, options, report)
     apart = figures.pop("apart")
-    apart["forth"], apart["back"] = OneSided(**apart["forth"]), OneSided(**apart["back"])
+    apart["forth"], apart["back"] = one_sided(apart["forth"]), one_sided(apart["back"])
     return Wrap(mesh=Mesh._of(source), apart=Distance(**apart), **figures)
 
 
