@@ -1,5 +1,7 @@
 """tests/mutation, of a small file: what is changed in it, and that one number chooses one change."""
 
+import importlib.machinery
+import importlib.util
 import os
 import pathlib
 import subprocess
@@ -11,6 +13,14 @@ pytest.importorskip("clang.cindex")  # python3-clang-14
 HERE = pathlib.Path(__file__).resolve().parents[1] / "mutation"
 sys.path.insert(0, str(HERE))
 import mutants  # noqa: E402  pylint: disable=wrong-import-position
+
+
+def _program():
+    loader = importlib.machinery.SourceFileLoader("mutation_run", str(HERE / "run"))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("mutation_run", loader))
+    loader.exec_module(module)
+    return module
+
 
 SOURCE = """#include <cstdio>
 #include <cstdlib>
@@ -78,3 +88,34 @@ def test_one_number_chooses_one_change(file):
         said = {number: subprocess.run([program, "1"], env=dict(os.environ, SPHPARAM_MUTANT=number), check=True,
                                        capture_output=True, text=True).stdout for number in ("0", "6", "7")}
         assert said["0"] == said["6"] == "-6.5" and said["7"] in ("-14.5", "1.5")
+
+
+def test_the_copy_holds_what_there_is_now(tmp_path, monkeypatch):
+    program, tree = _program(), tmp_path / "build/tree"
+    monkeypatch.setattr(program, "ROOT", tmp_path)
+    monkeypatch.setattr(program, "TREE", tree)
+    subprocess.run(["git", "init", "--quiet", tmp_path], check=True)
+    (tmp_path / ".gitignore").write_text("/build/\n")
+    for name in ("room/value.cpp", "room/other.cpp"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text(SOURCE)
+    program.copy_tree({"made.txt": b"made"})
+    (tree / "build").mkdir()
+    (tree / "build/kept.o").write_bytes(b"")
+    (tmp_path / "room/inner").mkdir()
+    (tmp_path / "room/value.cpp").rename(tmp_path / "room/inner/value.cpp")
+    program.copy_tree({"room/other.cpp": b"changed"})
+    there = {str(path.relative_to(tree)) for path in tree.rglob("*") if path.is_file()}
+    assert there == {".gitignore", "build/kept.o", "room/inner/value.cpp", "room/other.cpp"}
+    assert (tree / "room/other.cpp").read_bytes() == b"changed"
+
+
+def test_a_file_that_has_moved_has_mutants_where_it_is(file, tmp_path, monkeypatch):
+    program = _program()
+    monkeypatch.setattr(program, "TREE", tmp_path)
+    monkeypatch.setattr(program, "WORK", tmp_path / "work")
+    before = program.found_in(file, ["-std=c++20"])
+    moved = file.rename(tmp_path / "moved.cpp")
+    after = program.found_in(moved, ["-std=c++20"])
+    assert [one.change for one in before] == [one.change for one in after]
+    assert {one.file for one in before} == {"value.cpp"} and {one.file for one in after} == {"moved.cpp"}
