@@ -21,10 +21,11 @@ namespace sphparam {
 namespace {
 
 constexpr double least_direct_lambda = 0.1, greatest_direct_lambda = 10;  // others by continuation
+constexpr double first_of_equal_areas = 4;  // next to no shape's areas are equal before
 
 double first_lambda(const ParameterizeOptions& options) {
   if (options.balance == Balance::Conformal) return least_lambda;
-  if (options.balance == Balance::EqualArea) return 1;
+  if (options.balance == Balance::EqualArea) return first_of_equal_areas;
   return std::clamp(options.energy.lambda, least_direct_lambda, greatest_direct_lambda);
 }
 

@@ -146,10 +146,18 @@ class Continuation {
         const bool idle = !(error < (1 - idle_climb) * before);
         if (lambda_ > steep_lambda && idle) return error <= options_.area_error;
       }
-      settle(options_.optimise);  // which may raise the error a little
+      settle_climbed(how);  // which may raise the error a little
       error = error_of_areas();
     } while (error > options_.area_error && lambda_ < greatest_lambda);
     return error <= options_.area_error;
+  }
+
+  /// The more areas weigh, the less of the energy is more than an isometry has: the least gain is a
+  /// greater share of that. Steps on the way may have ended by it.
+  void settle_climbed(const Climb& how) {
+    OptimiseOptions last = options_.optimise;
+    last.least_gain *= std::sqrt(std::max(1.0, lambda_ / options_.from_lambda));
+    if (!report_.converged || how.gain > last.least_gain) settle(last);
   }
 
   /// Where triangles are so large that it makes a difference.
