@@ -176,6 +176,19 @@ TEST_CASE("coloured values: a property, colours, and a comment where one says wh
   CHECK(told.find_vertex_property("red"));
 }
 
+TEST_CASE("coloured values: a texture, which would be seen instead of the colours, is left out") {
+  MeshFile skinned = file_of(icosphere(0));
+  skinned.comments = {"TextureFile skin.png", "scanned"};
+  skinned.materials = {"skin.png"};
+  skinned.base_colours = {MaterialTexture{.image = "skin.png"}};
+  skinned.channels.resize(1);
+  const MeshFile told = with_coloured_values(skinned, "error", VectorX::Zero(12));
+  CHECK(told.comments == std::vector<std::string>{"scanned"});
+  CHECK(told.base_colours.empty());
+  CHECK(told.channels.empty());
+  CHECK(told.materials == skinned.materials);
+}
+
 TEST_CASE("coloured values: of both signs, blue to red as far both ways") {
   const MeshFile ball = file_of(icosphere(0));
   VectorX values = VectorX::Zero(ball.mesh.vertex_count());

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "io/attributes/texture_pages.h"
 #include "number_text.h"
 #include "render/colour.h"
 
@@ -24,6 +25,7 @@ MeshFile with_coloured_values(MeshFile file, const std::string& name, const Vect
   const bool is_signed = values.size() > 0 && values.minCoeff() < 0;
   const std::vector<Rgb> colours = is_signed ? signed_colours(values, largest)
                                              : value_colours(values, 0, largest > 0 ? largest : 1);
+  remove_textures(file);
   int channel = 0;
   for (const char* colour_name : {"red", "green", "blue"}) {
     Property property = {colour_name, ScalarType::Uint8, {}};

@@ -101,6 +101,18 @@ std::vector<std::string> texture_pages(const MeshFile& file) {
   return pages;
 }
 
+bool has_textures(const MeshFile& file) {
+  return has_texture_pages(file) ||
+         std::ranges::any_of(file.base_colours,
+                             [](const MaterialTexture& texture) { return !texture.image.empty(); });
+}
+
+void remove_textures(MeshFile& file) {
+  std::erase_if(file.comments, names_page);
+  file.base_colours.clear();
+  file.channels.clear();
+}
+
 void take_texture_pages(MeshFile& file, const std::optional<fs::path>& folder) {
   const std::vector<std::string> pages = texture_pages(file);
   if (pages.empty() || !folder || file.mesh.face_count() == 0) return;

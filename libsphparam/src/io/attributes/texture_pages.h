@@ -18,6 +18,14 @@ bool has_texture_pages(const MeshFile& file);
 /// Their names, as the comments have them; the number of a face's counts them from 0.
 std::vector<std::string> texture_pages(const MeshFile& file);
 
+/// Whether an image is seen on the mesh, of its materials or of its pages.
+bool has_textures(const MeshFile& file);
+
+/// Takes away what is seen of a mesh instead of the colours of its vertices, or lies on other
+/// texture coordinates than it has now: its pages, and what its materials say. Texture coordinates
+/// and names of materials stay.
+void remove_textures(MeshFile& file);
+
 /// Where the comments of a mesh name images of its texture and it has texture coordinates: these
 /// become base colours of materials. Each image is one, by the face property `texnumber`, else all
 /// faces are of the first; of a file that we wrote, materials are there, and each has the image of
