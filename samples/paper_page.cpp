@@ -26,7 +26,6 @@ namespace {
 namespace fs = std::filesystem;
 using namespace sphparam;
 using namespace sphparam::samples;
-using namespace sphparam;
 
 constexpr char usage[] =
     "The evaluation of \"Curvilinear Spherical Parameterization\" made again, as one page.\n"

@@ -28,16 +28,11 @@ class FlippableMesh {
     for (const Vertex v : origin_) ++valence_[static_cast<size_t>(v)];
   }
 
-  /// One pass; returns how many edges were flipped.
-  long flip_towards_delaunay() {
-    long flips = 0;
+  /// One pass.
+  void flip_towards_delaunay() {
     for (Halfedge h = 0; h < static_cast<Halfedge>(origin_.size()); ++h) {
-      if (h < twin(h) && improves(h) && legal(h)) {
-        flip(h);
-        ++flips;
-      }
+      if (h < twin(h) && improves(h) && legal(h)) flip(h);
     }
-    return flips;
   }
 
   void move_along(const Field& field, const SurfaceRelaxationOptions& options) {
