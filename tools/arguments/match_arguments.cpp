@@ -72,7 +72,7 @@ void declare_options(Declaration& command, MatchArguments& arguments) {
           "lh.sulc, .mgh …) or properties of the meshes (default: none)")
       .number("--feature-weight", arguments.feature_weight, "W", {1e-9, 1e9, "1e-9 to 1e9"},
               "Of their mean square difference, in spreads, against the energy, of which isometry "
-              "has 2 (default: 2)")
+              "has 2")
       .flag(
           "--alike", arguments.options.alike,
           "A and B lie alike in space, as their files have them: without landmarks, ends and turns "
@@ -83,7 +83,7 @@ void declare_options(Declaration& command, MatchArguments& arguments) {
                {"angle-area", EnergyKind::AngleAndArea}},
               "Of A → B, what is minimised: stretch both ways, or angles and areas as of maps "
               "(default: symmetric-dirichlet)")
-      .sphere(arguments.first_sphere)
+      .text("--sphere", arguments.first_sphere, "FILE", "The map of A, in a file of its own")
       .text("--sphere-b", arguments.second_sphere, "FILE", "The same for B")
       .text("--write-shape", arguments.shape, "FILE", "The triangles of A in the shape of B")
       .written()

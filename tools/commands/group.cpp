@@ -224,9 +224,9 @@ void declare_options(Declaration& command, GroupArguments& arguments) {
             "What all shapes are brought to first; it may be one of them (default: the first)")
       .choice(
           "--start", arguments.options.start,
-          {{"rotation", GroupStart::Rotation},
+          {{"ends", GroupStart::Ends},
+           {"rotation", GroupStart::Rotation},
            {"ellipsoid", GroupStart::Ellipsoid},
-           {"ends", GroupStart::Ends},
            {"maps", GroupStart::Maps}},
           "Where the way to the template begins: ends paired, else as rotation; maps turned until "
           "they look alike; first-order ellipsoids turned alike; maps as they lie (default: "
