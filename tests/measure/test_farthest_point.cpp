@@ -18,6 +18,19 @@ TriangleMesh triangle(const Vector3& a, const Vector3& b, const Vector3& c) {
   return mesh;
 }
 
+/// n×n cells of length 1, each of two triangles, from (start, start, height) on.
+TriangleMesh grid(int n, double start, double height) {
+  TriangleMesh mesh{Points((n + 1) * (n + 1), 3), Triangles(2 * n * n, 3)};
+  for (int v = 0; v < mesh.vertex_count(); ++v)
+    mesh.positions.row(v) << start + v / (n + 1), start + v % (n + 1), height;
+  for (int cell = 0; cell < n * n; ++cell) {
+    const int v = cell / n * (n + 1) + cell % n;
+    mesh.triangles.row(2 * cell) << v, v + n + 1, v + n + 2;
+    mesh.triangles.row(2 * cell + 1) << v, v + n + 2, v + 1;
+  }
+  return mesh;
+}
+
 /// From what is known, or the vertices if they are farther.
 FarthestPoint farthest(const TriangleMesh& from, const TriangleMesh& to, FarthestPoint known = {},
                        std::int64_t cuts = 0) {
@@ -58,6 +71,37 @@ TEST_CASE("farthest point: inside a triangle whose corners are all on the other 
   CHECK(found.at_most >= 3.4);
   CHECK(found.at_most <= 3.4 * 1.002);
   CHECK((found.point - centre).norm() < 0.1);
+}
+
+TEST_CASE("farthest point: over a pit whose walls each lie along a side, in one cut at its foot") {
+  // The walls are planes of coordinates; of all points of the rim's triangle (⅓, ⅓, ⅓) is farthest.
+  TriangleMesh pit{Points(4, 3), Triangles(3, 3)};
+  pit.positions << 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0;
+  const TriangleMesh lid = triangle(pit.position(0), pit.position(1), pit.position(2));
+  const VertexDistances on_rim = {Eigen::VectorXd::Zero(3), {0, 1, 2}};
+  const FarthestPoint known = {.point = pit.position(0), .distance = 0};
+  Triangles foot_first(3, 3), foot_last(3, 3);
+  foot_first << 3, 0, 1, 3, 1, 2, 3, 2, 0;
+  foot_last << 0, 1, 3, 1, 2, 3, 2, 0, 3;
+  for (const Triangles& walls : {foot_first, foot_last}) {
+    pit.triangles = walls;
+    const FarthestPoint found = find_farthest(lid, on_rim, pit, RayScene(pit), known, 0, 1);
+    CHECK((found.point - Vector3::Constant(1.0 / 3)).norm() < 1e-15);
+    CHECK(found.distance == Approx(1.0 / 3).epsilon(1e-15));
+    CHECK(found.at_most <= found.distance * (1 + 1e-15));
+  }
+}
+
+TEST_CASE("farthest point: of more triangles than are looked into, those that promise most are") {
+  // Everything is 10 away. Two corners of a small triangle promise no more than √(10² + 2) over one
+  // another's faces; those of a large one 18, and it is the last.
+  TriangleMesh above = grid(91, 0, 10);
+  above.triangles.conservativeResize(above.face_count() + 1, 3);
+  above.triangles.bottomRows(1) << 0, 15, 15 * 92;
+  const FarthestPoint found = farthest(above, grid(92, -0.5, 0));
+  CHECK(found.distance == 10);
+  CHECK(found.at_most > 10);  // not all that may be farther was cut
+  CHECK(found.at_most <= std::sqrt(102));
 }
 
 TEST_CASE("farthest point: the bound holds and narrows down, on any pair of surfaces") {

@@ -1,6 +1,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "sphparam/errors.h"
 #include "sphparam/measure/surface_distance.h"
@@ -160,6 +163,31 @@ TEST_CASE("distance: vertices that no triangle uses do not count") {
   CHECK(apart.forth.at_vertices[ball.vertex_count() - 1] == Approx(1e200));
 }
 
+TEST_CASE("distance: each vertex of the only triangle counts") {
+  TriangleMesh one = plane(1, 0);
+  one.triangles.conservativeResize(1, 3);
+  const DistanceOptions of_vertices{.faces = false, .vertices = true};
+  CHECK(measure_distance(one, plane(1, 2), of_vertices).forth.samples == 3);
+}
+
+TEST_CASE("distance: progress is the share of the points of one direction") {
+  std::vector<std::pair<std::string, double>> told;
+  const Progress tell = [&](std::string_view stage, double share) {
+    told.emplace_back(stage, share);
+    return true;
+  };
+  const TriangleMesh first = octahedron(), second = icosphere(0);  // 6 and 12 vertices
+  measure_distance(first, second, {.samples = 9, .edges = true, .progress = tell});
+  CHECK(told == std::vector<std::pair<std::string, double>>{{"trees", 0},
+                                                            {"trees", 0.5},
+                                                            {"first to second", 0.25},
+                                                            {"first to second", 0.625},
+                                                            {"first to second", 1},
+                                                            {"second to first", 0.4},
+                                                            {"second to first", 0.7},
+                                                            {"second to first", 1}});
+}
+
 TEST_CASE("distance: what mean and RMS are taken over can be chosen") {
   const TriangleMesh a = icosphere(1), b = scaled(icosphere(3), 1.1);
   const auto samples = [&](bool faces, bool edges, bool vertices) {
@@ -176,12 +204,15 @@ TEST_CASE("distance: what mean and RMS are taken over can be chosen") {
 
 TEST_CASE("distance: surfaces as large or as small as numbers go, and a shape far from another") {
   const TriangleMesh a = icosphere(2), b = scaled(icosphere(2), 1.5);
-  const double expected = measure_distance(a, b, {.samples = 200}).rms();
+  const SurfaceDistance unscaled = measure_distance(a, b, {.samples = 200});
+  const double expected = unscaled.rms();
   for (const double scale : {1e-290, 1e-90, 1e-79, 1e-61, 1e59, 1e79, 1e90, 1e100, 1e290}) {
     INFO(scale);
     const SurfaceDistance distance =
         measure_distance(scaled(a, scale), scaled(b, scale), {.samples = 200});
     CHECK(distance.rms() / scale == Approx(expected));
+    CHECK(distance.diagonal_first / scale == Approx(unscaled.diagonal_first));
+    CHECK(distance.diagonal_second / scale == Approx(unscaled.diagonal_second));
   }
   TriangleMesh far = b;
   far.positions.col(0).array() += 1e7;

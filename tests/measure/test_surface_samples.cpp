@@ -1,4 +1,6 @@
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdint>
 #include <set>
 
 #include "measure/surface_samples.h"
@@ -70,6 +72,22 @@ TEST_CASE("edge samples: on edges, each edge once however many triangles have it
   }
   CHECK(on_an_edge == samples.count());
   for (const int count : per_edge) CHECK(count == Approx(1000).margin(1));
+}
+
+TEST_CASE("samples: where on an edge a point lies has nothing to do with which edge it is") {
+  TriangleMesh mesh{Points(3, 3), Triangles(1, 3)};
+  mesh.positions << 0, 0, 0, 1, 0, 0, 0, 1, 0;
+  mesh.triangles << 0, 1, 2;
+  double along = 0;
+  int on_first = 0;
+  for (std::uint64_t seed = 0; seed < 3000; ++seed) {
+    const Vector3 p = EdgeSamples(mesh, 1, seed)(0);
+    if (p.y() != 0) continue;
+    along += p.x();
+    ++on_first;
+  }
+  CHECK(on_first == Approx(3000 / (2 + std::sqrt(2))).margin(90));
+  CHECK(along / on_first == Approx(0.5).margin(0.04));  // 0.15 if one number did both
 }
 
 TEST_CASE("samples: a function of the seed and their number") {
