@@ -112,6 +112,12 @@ TEST_CASE("input hash: images that comments of PLY name count") {
   CHECK(in.counts("c.png", path));
   CHECK_FALSE(in.counts("d.png", path));
   CHECK(in.counts("c.png", in.write("b.ply.gz", zip(header))));
+  // Behind the header nothing is unpacked, nor found to be damaged.
+  std::string noise;
+  for (std::uint32_t i = 1, x = 1; i < 1u << 22; ++i)
+    noise += static_cast<char>((x = x * 1664525 + 1013904223) >> 24);
+  const std::string whole = zip(header + "\nend_header\n" + noise);
+  CHECK(in.counts("c.png", in.write("c.ply.gz", whole.substr(0, whole.size() / 2))));
 }
 
 TEST_CASE("input hash: a statement of OBJ over thousands of lines is read once") {

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "batch/engines.h"
 #include "batch/manifest.h"
 #include "batch/steps.h"
 #include "sphparam/batch/plan.h"
@@ -122,6 +123,17 @@ TEST_CASE("manifest: one that is cut off or another file is refused with the lin
                     Contains("plan.tsv:6: an item that is not whole"));
   CHECK_THROWS_WITH(parse_manifest("#sphparam-batch\t1\n#colour\tred\n", "plan.tsv"),
                     Contains("plan.tsv:2"));
+}
+
+TEST_CASE("script: a folder of any name is quoted as sbatch reads it") {
+  const auto output = [](const std::string& folder) {
+    const std::string script = slurm_script(folder, plan_of_two(), "sphparam");
+    const std::size_t at = script.find("#SBATCH --output=");
+    return script.substr(at, script.find('\n', at) - at);
+  };
+  CHECK(output("/a b") == "#SBATCH --output=\"/a b/logs/%A_%a.log\"");
+  CHECK(output("/it's \"100 %\"") == "#SBATCH --output=\"/it's \\\"100 %%\\\"/logs/%A_%a.log\"");
+  CHECK(output("/a\\b") == "#SBATCH --output=\"/a\\\\b/logs/%A_%a.log\"");
 }
 
 TEST_CASE("tasks: as sbatch takes them") {

@@ -300,6 +300,7 @@ TEST_CASE("batch: a Snakefile of the user's own is no batch's, one of a batch is
 TEST_CASE("batch: a plan's file is its name, and marks go once another plan was made") {
   const Shapes shapes(1);
   REQUIRE(shapes.plan().code == 0);
+  REQUIRE(shapes.batch("run").code == 0);  // marks are of what ran
   std::string name = bytes_of(shapes.work + "/plan");
   name.pop_back();
   CHECK(shapes.batch("status", {"--plan", shapes.work + "/plan-" + name + ".tsv"}).code == 0);
@@ -387,6 +388,71 @@ TEST_CASE("batch: a plan whose shapes were all tried has nothing to submit, and 
   CHECK_THAT(bytes_of(shapes.work + "/array.sbatch"), Contains("work/logs/") && !Contains("//"));
   shapes.batch("retry");
   CHECK_THAT(shapes.plan({"map"}, "1").err, Contains("array.sbatch"));
+}
+
+TEST_CASE(
+    "batch: marks of Snakemake whose results are gone are told, and go as it is planned again") {
+  const Shapes shapes(4);
+  shapes.add_bad();
+  shapes.plan({"map"}, "2");
+  shapes.batch("run");
+  const std::string name = bytes_of(shapes.work + "/plan").substr(0, 16);
+  const auto mark = [&](int task) {
+    return shapes.work + "/tasks/" + name + "/" + std::to_string(task) + ".done";
+  };
+  fs::create_directories(shapes.work + "/tasks/" + name);
+  for (const int task : {1, 2, 3}) write_bytes(mark(task), "");
+  CHECK(shapes.status()["marked_open"] == 0);
+  fs::remove_all(shapes.work + "/results/ball2");  // bad, ball0 · ball1, ball2 · ball3
+  CHECK(shapes.status()["marked_open"] == 1);
+  CHECK_THAT(shapes.batch("status").out,
+             Contains("Snakemake has 1 task for done with open items, by marks in the folder "
+                      "tasks: `batch plan` again, or without that folder, it runs them"));
+  shapes.plan({"map"}, "2");
+  CHECK(fs::exists(mark(1)));
+  CHECK_FALSE(fs::exists(mark(2)));
+  CHECK(fs::exists(mark(3)));
+  CHECK(shapes.status()["marked_open"] == 0);
+}
+
+TEST_CASE("batch: a shape that another file of its name gives another id is told") {
+  const Shapes shapes(1);
+  shapes.plan({"map"}, "1");
+  CHECK_THAT(shapes.plan({"map"}, "1").err, !Contains("another id"));
+  shapes.batch("run");
+  fs::create_directories(shapes.folder / "more");
+  fs::copy_file(shapes.folder / "in/ball0.obj", shapes.folder / "more/ball0.obj");
+  const Ended both =
+      sphparam_program({"batch", "plan", shapes.folder / "in", shapes.folder / "more", "-o",
+                        shapes.work, "--chunk", "1", "--", "map"});
+  CHECK(both.code == 0);
+  CHECK_THAT(both.err, Contains("warning: 1 shape has another id than in the plan before (ball0 is "
+                                "in_ball0 now), as where others have the same name: what was made "
+                                "under the old one stays, and counts no more; a table with the "
+                                "column id keeps ids"));
+  CHECK(fs::exists(shapes.work + "/results/ball0/record.json"));
+}
+
+TEST_CASE("batch: where nobody mounted /proc a batch runs, and clears nothing of others away") {
+  const std::string hidden = "mount -t tmpfs none /proc && ";
+  if (std::system(("unshare -rm sh -c '" + hidden + "true' 2>/dev/null").c_str()) != 0) {
+    WARN("skipped: no name space of one's own here");
+    return;
+  }
+  const Shapes shapes(2);
+  const auto run = [&](const std::string& words) {
+    return std::system(
+        ("unshare -rm sh -c '" + hidden + program_file() + " batch " + words + "' >/dev/null 2>&1")
+            .c_str());
+  };
+  CHECK(run("plan " + shapes.folder / "in" + " -o " + shapes.work + " --chunk 1 -- map") == 0);
+  const std::string others = shapes.work + "/staging/x~host.12345678~12345678~4026531836~1~2";
+  fs::create_directories(others);
+  CHECK(run("run " + shapes.work) == 0);
+  CHECK(shapes.record("ball0")["outcome"] == "certified");
+  CHECK(shapes.record("ball1")["outcome"] == "certified");
+  CHECK(fs::exists(others));
+  CHECK_THAT(shapes.batch("run").err, Contains("2 done before"));  // of the same program
 }
 
 TEST_CASE("batch: a mesh that was repaired is told in the table, the page and the status") {

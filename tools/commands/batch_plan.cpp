@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string_view>
 
@@ -13,6 +14,7 @@
 #include "commands/batch.h"
 #include "commands/plan_checks.h"
 #include "console/program.h"
+#include "io/files/program_path.h"
 #include "io/shell_word.h"
 #include "number_text.h"
 #include "sphparam/batch/plan.h"
@@ -173,6 +175,49 @@ int chunk_of(const std::string& text) {
   return chunk;
 }
 
+/// Has the shape been worked on under that name?
+bool has_record(const fs::path& folder, const std::string& id) {
+  std::error_code hidden;
+  return fs::exists(folder / "results" / id, hidden) ||
+         fs::exists(folder / "failed" / (id + ".json"), hidden);
+}
+
+/// "a is in_a now": shapes that the plan before called otherwise, and what became of them.
+Words renamed_shapes(const std::string& folder, const BatchPlan& plan) try {
+  std::map<std::string, std::string> ids;
+  for (const BatchItem& item : plan.items) ids.emplace(item.path, item.id);
+  Words renamed;
+  for (const BatchItem& item : load_plan(folder).items) {
+    const auto now = ids.find(item.path);
+    if (now != ids.end() && now->second != item.id && has_record(folder, item.id))
+      renamed.push_back(item.id + " is " + now->second + " now");
+  }
+  return renamed;
+} catch (const ReadError&) {  // the first plan of its folder
+  return {};
+}
+
+void tell_renamed(const std::string& folder, const BatchPlan& plan, Console& console) {
+  constexpr std::size_t most_told = 5;
+  Words renamed = renamed_shapes(folder, plan);
+  if (renamed.empty()) return;
+  const auto count = static_cast<long>(renamed.size());
+  renamed.resize(std::min(renamed.size(), most_told));
+  console.warning(counted(count, "shape has", "shapes have") +
+                  " another id than in the plan before (" + joined(renamed) +
+                  (count > static_cast<long>(most_told) ? ", …" : "") +
+                  "), as where others have the same name: what was made under the old one stays, "
+                  "and counts no more; a table with the column id keeps ids");
+}
+
+/// Of a folder whose name Slurm does not take.
+void tell_lost_logs(const std::string& folder, Console& console) {
+  if (fs::absolute(folder).string().find('\\') != std::string::npos)
+    console.warning(
+        "the folder has a backslash in its name, which Slurm takes out of names of "
+        "logs: tasks of array.sbatch cannot write theirs");
+}
+
 void tell(const BatchPlan& plan, const std::string& folder, std::optional<double> item_seconds,
           bool anything_left, Console& console) {
   console.say(counted(static_cast<long>(plan.items.size()), "item") + " in " +
@@ -219,6 +264,8 @@ int run_plan(PlanArguments& arguments) try {
                                       .chunk = automatic ? 1 : chunk_of(arguments.chunk),
                                       .threads = arguments.threads,
                                       .progress = session.progress()});
+  tell_renamed(arguments.folder, plan, session.console);
+  tell_lost_logs(arguments.folder, session.console);
   std::optional<double> item_seconds;
   bool anything_left = true;
   if (automatic) {
@@ -226,8 +273,7 @@ int run_plan(PlanArguments& arguments) try {
     item_seconds = seconds_of_item(arguments.folder, plan);
     plan = with_chunk(std::move(plan), chunk_for(plan.items.size(), item_seconds.value_or(60)));
   }
-  const std::string program = fs::read_symlink("/proc/self/exe").string();
-  save_plan(arguments.folder, plan, program);
+  save_plan(arguments.folder, plan, program_path().string());
   session.console.clear_progress();
   tell(plan, arguments.folder, item_seconds, anything_left, session.console);
   return Ok;

@@ -7,13 +7,16 @@
 #include <cstdio>
 #include <cstring>
 #include <ctime>
+#include <filesystem>
 #include <limits>
+#include <system_error>
 #include <vector>
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
 #include "io/files/file_bytes.h"
+#include "io/files/program_path.h"
 
 namespace sphparam {
 
@@ -48,7 +51,10 @@ std::string hash_of_file(const std::string& path) {
 
 const std::string& program_hash() {
   static const std::string hash = [] {
-    std::vector<std::string> objects = {"/proc/self/exe"};
+    const std::string running = "/proc/self/exe";  // which stays, whatever its file is now
+    std::error_code hidden;
+    const bool is_mounted = std::filesystem::exists(running, hidden);
+    std::vector<std::string> objects = {is_mounted ? running : program_path().string()};
     dl_iterate_phdr(note_object, &objects);
     std::string hashes;
     for (const std::string& object : objects) hashes += hash_of_file(object);

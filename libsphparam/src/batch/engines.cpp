@@ -3,11 +3,14 @@
 
 #include "batch/engines.h"
 
+#include <algorithm>
 #include <filesystem>
 
 namespace sphparam {
 
 namespace {
+
+namespace fs = std::filesystem;
 
 /// "/usr/bin/sphparam" where nobody says otherwise.
 std::string program_line(const std::string& program) {
@@ -24,6 +27,23 @@ std::string python_quoted(const std::string& text) {
   return quoted + "'";
 }
 
+/// Between double quotes of a line of #SBATCH, where % begins what Slurm fills in.
+std::string sbatch_escaped(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '"' || c == '\\') escaped += '\\';
+    escaped += c == '%' ? "%%" : std::string(1, c);
+  }
+  return escaped;
+}
+
+/// Is there no record of it, neither of success nor of failure?
+bool is_open(const fs::path& folder, const BatchItem& item) {
+  std::error_code hidden;
+  return !fs::exists(folder / "results" / item.id / "record.json", hidden) &&
+         !fs::exists(folder / "failed" / (item.id + ".json"), hidden);
+}
+
 }  // namespace
 
 std::string shell_quoted(const std::string& text) {
@@ -35,7 +55,6 @@ std::string shell_quoted(const std::string& text) {
 std::string slurm_script(const std::string& folder, const BatchPlan& plan,
                          const std::string& program) {
   const std::string tasks = std::to_string(plan.tasks());
-  const std::string quote = folder.find('"') == std::string::npos ? "\"" : "'";
   return "#!/bin/sh\n"
          "# " +
          std::to_string(plan.items.size()) + " items, " + std::to_string(plan.chunk) +
@@ -49,8 +68,8 @@ std::string slurm_script(const std::string& folder, const BatchPlan& plan,
          "\n"
          "#SBATCH --cpus-per-task=1\n"
          "#SBATCH --open-mode=append\n"
-         "#SBATCH --output=" +
-         quote + folder + "/logs/%A_%a.log" + quote + "\n" + program_line(program) +
+         "#SBATCH --output=\"" +
+         sbatch_escaped(folder) + "/logs/%A_%a.log\"\n" + program_line(program) +
          "\n"
          "exec \"$sphparam\" batch run " +
          shell_quoted(folder) + " --plan " + plan.name +
@@ -84,8 +103,20 @@ std::string snakefile(const BatchPlan& plan, const std::string& program) {
 }
 
 std::string task_mark(const std::string& folder, const BatchPlan& plan, int task) {
-  return (std::filesystem::path(folder) / "tasks" / plan.name / (std::to_string(task) + ".done"))
-      .string();
+  return (fs::path(folder) / "tasks" / plan.name / (std::to_string(task) + ".done")).string();
+}
+
+std::vector<int> tasks_marked_open(const std::string& folder, const BatchPlan& plan) {
+  std::vector<int> tasks;
+  for (int task = 1; task <= plan.tasks(); ++task) {
+    std::error_code hidden;
+    if (!fs::exists(task_mark(folder, plan, task), hidden)) continue;
+    const auto first = plan.items.begin() + std::ptrdiff_t{task - 1} * plan.chunk;
+    const auto last = first + std::min<std::ptrdiff_t>(plan.chunk, plan.items.end() - first);
+    if (std::any_of(first, last, [&](const BatchItem& item) { return is_open(folder, item); }))
+      tasks.push_back(task);
+  }
+  return tasks;
 }
 
 }  // namespace sphparam

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "sphparam/batch/plan.h"
 
@@ -15,6 +16,9 @@ std::string snakefile(const BatchPlan& plan, const std::string& program);
 
 /// What Snakemake leaves of a task that ended well.
 std::string task_mark(const std::string& folder, const BatchPlan& plan, int task);
+
+/// Tasks with such a mark of which an item has no record: it was removed, by hand.
+std::vector<int> tasks_marked_open(const std::string& folder, const BatchPlan& plan);
 
 /// A word as shells take it.
 std::string shell_quoted(const std::string& text);

@@ -148,6 +148,8 @@ void save_plan(const std::string& folder, const BatchPlan& plan, const std::stri
   const auto latest = small_file(path("plan"));
   if (!latest || *latest != plan.name + "\n")  // another plan's results may be there since
     fs::remove_all(fs::path(folder) / "tasks" / plan.name, hidden);
+  for (const int task : tasks_marked_open(folder, plan))
+    fs::remove(task_mark(folder, plan, task), hidden);
   if (!fs::exists(manifest, hidden)) files.add(manifest, manifest_text(plan));
   const std::string whole = (fs::absolute(folder) / "").lexically_normal().parent_path().string();
   files.add(path("array.sbatch"), slurm_script(whole, plan, program));

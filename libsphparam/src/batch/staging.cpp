@@ -118,7 +118,8 @@ std::string staging_name(const std::string& id, pid_t process) {
 
 StagingOwner owner_of_staging(const std::string& name) {
   const std::vector<std::string> parts = owner_parts(name);
-  if (parts.size() != 5) return StagingOwner::Unknown;
+  const bool can_look = !here()[1].empty();  // not where nobody mounted /proc
+  if (parts.size() != 5 || !can_look) return StagingOwner::Unknown;
   const bool same_boot = parts[1] == here()[1], same_space = parts[2] == here()[2];
   if (same_boot && same_space)
     return lives(parts[3], parts[4]) ? StagingOwner::Lives : StagingOwner::IsGone;

@@ -134,6 +134,7 @@ BatchStatus batch_status(const std::string& folder, const BatchPlan& plan, int t
     status.warned += !head->failed() && !head->warnings.empty();
     status.to_retry += head->retry;
   }
+  status.marked_open = tasks_marked_open(folder, plan).size();
   status.running = static_cast<std::size_t>(count_staging(folder));
   status.failures = grouped(plan, heads);
   estimate_time(status, plan, heads);
@@ -157,6 +158,10 @@ std::string to_text(const BatchStatus& status) {
   text += done_text(status);
   if (status.to_retry > 0)
     text += "  to be tried again: " + std::to_string(status.to_retry) + " of the failed\n";
+  if (status.marked_open > 0)
+    text += "  Snakemake has " + counted(static_cast<long>(status.marked_open), "task") +
+            " for done with open items, by marks in the folder tasks: `batch plan` again, or " +
+            "without that folder, it runs them\n";
   if (status.cpu_seconds_left > 0)
     text += "  left: " + duration(status.cpu_seconds_left) + " of one core";
   if (status.cpu_seconds_left > 0 && status.seconds_left)
@@ -188,6 +193,7 @@ std::string to_json(const BatchStatus& status) {
       {"to_retry", status.to_retry},
       {"open", status.open()},
       {"running", status.running},
+      {"marked_open", status.marked_open},
       {"cpu_seconds_left", status.cpu_seconds_left},
       {"seconds_left", status.seconds_left ? nlohmann::ordered_json(*status.seconds_left)
                                            : nlohmann::ordered_json()},

@@ -63,7 +63,7 @@ BatchPlan with_chunk(BatchPlan plan, int chunk);
 /// Puts a plan into the folder of a batch, which is made where it is not there: plan-NAME.tsv,
 /// `array.sbatch` for Slurm, `Snakefile` for Snakemake, which both name it, and `plan`, which says
 /// that it is the latest. `program`: how `sphparam` is called there. Manifests of earlier plans
-/// stay, for tasks that wait. Throws: WriteError.
+/// stay, for tasks that wait; marks of Snakemake go where results are gone. Throws: WriteError.
 void save_plan(const std::string& folder, const BatchPlan& plan, const std::string& program);
 
 /// The plan of that name, or where it is empty the latest. Throws: ReadError, also where its bytes

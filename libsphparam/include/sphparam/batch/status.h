@@ -23,11 +23,12 @@ struct BatchStatus {
   std::string plan;
   std::size_t items = 0;
   std::size_t done = 0, failed = 0;
-  std::size_t certified = 0;  // of the done: a map is proved one-to-one
-  std::size_t repaired = 0;   // of the done: their meshes were mended
-  std::size_t warned = 0;     // of the done: a step warned of something
-  std::size_t to_retry = 0;   // of the failed: to be tried again
-  std::size_t running = 0;    // folders below `staging` whose processes live, or may live elsewhere
+  std::size_t certified = 0;    // of the done: a map is proved one-to-one
+  std::size_t repaired = 0;     // of the done: their meshes were mended
+  std::size_t warned = 0;       // of the done: a step warned of something
+  std::size_t to_retry = 0;     // of the failed: to be tried again
+  std::size_t marked_open = 0;  // tasks that Snakemake has for done, of which an item is open
+  std::size_t running = 0;  // folders below `staging` whose processes live, or may live elsewhere
   std::vector<BatchFailures> failures = {};  // most first
   double cpu_seconds_an_item = 0;            // of what is settled, the mean; 0: nothing is
   double cpu_seconds_left = 0;               // of what is not settled, by size of input
