@@ -6,7 +6,6 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include "io/attributes/material_comments.h"
@@ -14,6 +13,7 @@
 #include "io/attributes/remarks.h"
 #include "io/files/text_scanner.h"
 #include "io/formats/obj/obj_materials.h"
+#include "io/formats/obj/obj_other_statements.h"
 #include "number_text.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/polygons.h"
@@ -51,13 +51,6 @@ class ForwardReferences {
   std::vector<Reference> found_;
 };
 
-/// The names that statements of one kind have given so far.
-struct Names {
-  std::string last;
-  std::set<std::string> distinct;
-  std::vector<std::string> in_order;  // the distinct ones, as first seen
-};
-
 /// A kind of thing that corners point at: v, vt or vn.
 struct IndexedKind {
   const char* name;
@@ -93,8 +86,7 @@ class ObjReader {
 
   MeshFile read() {
     while (scanner_.next_line()) read_line();
-    if (unknown_ > 0 && (polygons_.count() == 0 || vertices_.count == 0))
-      scanner_.fail_at(first_unknown_line_, "unknown statement " + first_unknown_);
+    if (polygons_.count() == 0 || vertices_.count == 0) others_.refuse_unknown(scanner_);
     check_forward_references();
     if (first_zero_line_ > 0) count_from_zero();
     return finish();
@@ -114,14 +106,14 @@ class ObjReader {
     if (keyword == "vt") return read_texcoord();
     if (keyword == "vn") return read_normal();
     if (keyword == "usemtl") return read_material();
-    read_ignored(std::string(keyword));
+    others_.note(std::string(keyword), scanner_);
   }
 
   /// Some programs write one a face; ZBrush writes the colours of 64 vertices into each of them.
   void read_comment() {
     constexpr const char* of_zbrush = "#MRGB";
     if (scanner_.peek_rest().starts_with(of_zbrush)) {
-      ++ignored_[of_zbrush];
+      others_.leave_out(of_zbrush);
       return;
     }
     std::string comment = one_line(scanner_.comment());
@@ -229,8 +221,8 @@ class ObjReader {
     if (name != obj_no_material) return false;
     if (!null_is_none_)
       null_is_none_ =
-          !folder_ || read_obj_materials({name}, names_["mtllib"].in_order, *folder_, options_)
-                          .base_colours.empty();
+          !folder_ ||
+          read_obj_materials({name}, others_.libraries(), *folder_, options_).base_colours.empty();
     return *null_is_none_;
   }
 
@@ -244,35 +236,6 @@ class ObjReader {
         material_ids_.try_emplace(name, static_cast<int>(file_.materials.size()));
     if (is_new) file_.materials.push_back(name);
     material_ = found->second;
-  }
-
-  void read_ignored(const std::string& keyword) {
-    static constexpr std::string_view named[] = {"g", "o", "s", "mtllib"};
-    static constexpr std::string_view silent[] = {"mg",        "lod",    "shadow_obj",
-                                                  "trace_obj", "bevel",  "c_interp",
-                                                  "d_interp",  "maplib", "usemap"};
-    static constexpr std::string_view noted[] = {
-        "l",    "p",    "vp",   "cstype", "deg", "bmat", "step", "curv",  "curv2", "surf",
-        "parm", "trim", "hole", "scrv",   "sp",  "end",  "con",  "ctech", "stech"};
-    const auto is_in = [&](const auto& list) {
-      return std::find(std::begin(list), std::end(list), keyword) != std::end(list);
-    };
-    if (is_in(named)) return note_name(names_[keyword]);
-    if (is_in(silent)) return;
-    if (is_in(noted)) {
-      ++ignored_[keyword];
-    } else if (unknown_++ == 0) {
-      first_unknown_ = sphparam::quoted(keyword);
-      first_unknown_line_ = scanner_.line_number();
-    }
-  }
-
-  // Most files say the same name again and again, or none but one.
-  void note_name(Names& names) {
-    const std::string_view name = scanner_.rest();
-    if (name.empty() || name == names.last) return;
-    names.last = name;
-    if (names.distinct.insert(names.last).second) names.in_order.push_back(names.last);
   }
 
   void expect_line_end() {
@@ -408,22 +371,19 @@ class ObjReader {
 
   void add_notes() {
     add_libraries();
-    note_groups();
-    for (const auto& [keyword, count] : ignored_)
-      add_loss(file_.notes, counted(count, "'" + keyword + "' statement"));
+    others_.tell_groups(file_.notes);
+    others_.tell_left_out(file_.notes);
     if (depths_) add_loss(file_.notes, "third texture coordinates");
     if (later_comments_ > most_later_comments)
       add_loss(file_.notes, counted(later_comments_ - most_later_comments, "comment") +
                                 " behind the first " + std::to_string(most_later_comments));
     if (weights_) add_loss(file_.notes, "fourth coordinates of vertices (weights)");
-    if (unknown_ > 0)
-      add_loss(file_.notes, counted(unknown_, "unknown statement") + ", the first " +
-                                first_unknown_ + " in line " + std::to_string(first_unknown_line_));
+    others_.tell_unknown(file_.notes);
   }
 
   /// Base colours from the libraries; what is not carried of them, or why they are not read.
   void add_libraries() {
-    const std::vector<std::string>& libraries = names_["mtllib"].in_order;
+    const std::vector<std::string>& libraries = others_.libraries();
     if (folder_) file_.companions = library_files(libraries, *folder_);
     if (libraries.empty() || file_.materials.empty()) return;
     const std::string materials = counted(static_cast<long>(file_.materials.size()), "material");
@@ -456,24 +416,6 @@ class ObjReader {
     return all;
   }
 
-  /// What stands for none says nothing. That of a single object is all of the file's: no loss.
-  void note_groups() {
-    static constexpr std::pair<const char*, const char*> kinds[] = {
-        {"o", "object"}, {"g", "group"}, {"s", "smoothing group"}};
-    static constexpr std::string_view none[] = {"off", "0", "default", "(null)"};
-    const auto is_none = [](const auto& name) { return std::ranges::count(none, name) > 0; };
-    std::vector<std::string> words;
-    for (const auto& [keyword, what] : kinds) {
-      std::set<std::string>& names = names_[keyword].distinct;
-      std::erase_if(names, is_none);
-      const bool is_whole = names.size() == 1 && std::string_view(keyword) == "o";
-      if (is_whole)
-        file_.notes.push_back("its object is called " + sphparam::quoted(*names.begin()));
-      if (!names.empty() && !is_whole) words.push_back(counted(std::ssize(names), what));
-    }
-    if (!words.empty()) add_loss(file_.notes, "the names of " + enumerated(words));
-  }
-
   static constexpr long most_later_comments = 1000;
   static constexpr std::int64_t most_vertices = std::numeric_limits<int>::max();
 
@@ -499,11 +441,7 @@ class ObjReader {
   int material_ = no_index;
   std::vector<int> material_of_;  // per polygon, from the first one with a material
   std::map<std::string, int> material_ids_;
-  std::map<std::string, Names> names_;   // by keyword
-  std::map<std::string, long> ignored_;  // by keyword
-  long unknown_ = 0;
-  std::string first_unknown_;
-  long first_unknown_line_ = 0;
+  ObjOtherStatements others_;
 
   MeshFile file_;
 };
