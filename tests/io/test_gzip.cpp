@@ -48,6 +48,14 @@ TEST_CASE("gzip: a mesh of any format is read through it, whatever its name") {
   CHECK(contains(complaint("hello", "a.off.gz"), "expected the keyword OFF"));
 }
 
+TEST_CASE(
+    "gzip: of a long file the beginning, of a short one all, of a damaged one what comes out") {
+  const std::string text(100000, 'x'), packed = gzipped("head" + text);
+  CHECK(beginning_of_gzip(packed, 6) == "headxx");
+  CHECK(beginning_of_gzip(gzipped("head"), 6) == "head");
+  CHECK(beginning_of_gzip(packed.substr(0, 5), 6).empty());
+}
+
 TEST_CASE("gzip: members follow one another, zeros may end it, what else follows is noted") {
   const std::string first = tetrahedron_obj.substr(0, 20), second = tetrahedron_obj.substr(20);
   const MeshFile file = read(gzipped(first) + gzipped(second), "a.obj.gz");
@@ -83,5 +91,6 @@ TEST_CASE("gzip: the limit on bytes holds for what comes out") {
   options.max_file_bytes -= 1;
   CHECK(contains(complaint(packed, "a.ply.gz", options), "unpacks to more than the limit of"));
   options.max_file_bytes = 1 << 20;
-  CHECK(contains(complaint(bomb, "a.ply.gz", options), "more than the limit of 1048576 bytes; `--limit file=N`"));
+  CHECK(contains(complaint(bomb, "a.ply.gz", options),
+                 "more than the limit of 1048576 bytes; `--limit file=N`"));
 }

@@ -259,7 +259,8 @@ TEST_CASE("distance: less than 0 inside of a closed surface, to the bit") {
   CHECK(out.forth.deviation->at_vertices == out.forth.at_vertices);
 }
 
-TEST_CASE("distance: a shifted cube is half inside; the unsigned figures are those without sides") {
+TEST_CASE(
+    "distance: a shifted cube is half inside, and the unsigned figures are those without sides") {
   TriangleMesh shifted = cube();
   shifted.positions.col(0).array() += 0.25;
   DistanceOptions options{.samples = 4000, .deviations = true};
@@ -286,7 +287,7 @@ TEST_CASE("distance: a shifted cube is half inside; the unsigned figures are tho
   CHECK(samples_alone.forth.deviation->at_vertices.size() == 0);
 }
 
-TEST_CASE("distance: sides of a surface of any size; none of one that is open") {
+TEST_CASE("distance: sides of a surface of any size, and none of one that is open") {
   const DistanceOptions options{.samples = 1000, .deviations = true};
   for (const double size : {1e100, 1e-100}) {
     const SurfaceDistance found =

@@ -3,12 +3,9 @@
 
 #include "batch/input_hash.h"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <limits>
-#include <new>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
@@ -196,23 +193,6 @@ class NamedFiles {
   std::set<fs::path> there_;
 };
 
-/// Of what a gzip file holds, as much as that, or less where it ends or is damaged.
-std::string beginning_of(std::string_view packed, std::size_t most) {
-  std::string bytes(most, '\0');
-  z_stream stream{};
-  constexpr int gzip = 15 + 16;
-  if (inflateInit2(&stream, gzip) != Z_OK) throw std::bad_alloc();
-  // zlib does not write to what it reads, but its interface does not say so.
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
-  stream.avail_in = static_cast<uInt>(std::min<std::size_t>(packed.size(), 2 * most));
-  stream.next_out = reinterpret_cast<Bytef*>(bytes.data());
-  stream.avail_out = static_cast<uInt>(most);
-  inflate(&stream, Z_SYNC_FLUSH);
-  bytes.resize(most - stream.avail_out);
-  inflateEnd(&stream);
-  return bytes;
-}
-
 /// Of what a file holds, where that is packed too. Formats that name no files need no unpacking,
 /// and of a PLY its header alone.
 NamedFiles files_named_in(std::string_view bytes, const std::string& path) {
@@ -220,7 +200,7 @@ NamedFiles files_named_in(std::string_view bytes, const std::string& path) {
   if (!looks_like_gzip(bytes)) return {bytes, path};
   if (std::ranges::count(naming, inner_extension_of(path)) == 0) return {"", path};
   constexpr std::size_t longest_header = 1 << 20;
-  if (const std::string begin = beginning_of(bytes, longest_header); looks_like_ply(begin))
+  if (const std::string begin = beginning_of_gzip(bytes, longest_header); looks_like_ply(begin))
     return {begin, path};
   try {
     return {unzip(bytes, path, ReadOptions{}.max_file_bytes).bytes, path};

@@ -97,6 +97,23 @@ Unzipped unzip(std::string_view bytes, const std::string& name, std::uint64_t ma
   return Inflater(bytes, name, max_bytes).run();
 }
 
+std::string beginning_of_gzip(std::string_view packed, std::size_t most) {
+  std::string bytes(most, '\0');
+  z_stream stream{};
+  constexpr int gzip = 15 + 16;
+  constexpr std::size_t most_at_once = 1u << 30;  // zlib counts in 32 bits
+  if (inflateInit2(&stream, gzip) != Z_OK) throw std::bad_alloc();
+  // zlib does not write to what it reads, but its interface does not say so.
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
+  stream.avail_in = static_cast<uInt>(std::min(most_at_once, packed.size()));
+  stream.next_out = reinterpret_cast<Bytef*>(bytes.data());
+  stream.avail_out = static_cast<uInt>(most);
+  inflate(&stream, Z_SYNC_FLUSH);
+  bytes.resize(most - stream.avail_out);
+  inflateEnd(&stream);
+  return bytes;
+}
+
 std::string zip(std::string_view bytes) {
   constexpr int gzip = 15 + 16, memory_level = 8;
   constexpr std::size_t most_at_once = 1u << 30, room = 1u << 16;  // zlib counts in 32 bits

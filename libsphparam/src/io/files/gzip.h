@@ -20,6 +20,10 @@ struct Unzipped {
 /// Throws: ReadError where the data is corrupt, cut short or unpacks to more than `max_bytes`.
 Unzipped unzip(std::string_view bytes, const std::string& name, std::uint64_t max_bytes);
 
+/// Of what the first member of a gzip file holds, as much as that, or less where it ends or is
+/// damaged. Requires: `most` is below 2³². Cost: that of what comes out, whatever the file's size.
+std::string beginning_of_gzip(std::string_view bytes, std::size_t most);
+
 /// A gzip file of one member, without name and time: the same bytes give the same file.
 std::string zip(std::string_view bytes);
 
