@@ -68,9 +68,10 @@ std::string Running::err_so_far() const { return bytes_of(folder_ / "err"); }
 
 Ended Running::wait() {
   int status = 0;
-  waitpid(pid_, &status, 0);
+  if (waitpid(pid_, &status, 0) != pid_) throw std::runtime_error("no end of " SPHPARAM_PROGRAM);
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  Ended ended = {code, bytes_of(folder_ / "out"), bytes_of(folder_ / "err")};
+  const fs::path out = folder_ / "out";  // not there where it goes elsewhere
+  Ended ended = {code, fs::exists(out) ? bytes_of(out) : "", bytes_of(folder_ / "err")};
   fs::remove_all(folder_);
   return ended;
 }
@@ -87,6 +88,7 @@ int type_advice(const std::string& message, const std::string& folder) {
   int count = 0;
   for (std::size_t at = 0; (at = message.find('`', at)) != std::string::npos; ++count) {
     const std::size_t end = message.find('`', at + 1);
+    if (end == std::string::npos) return -1;
     script += " && " + message.substr(at + 1, end - at - 1);
     at = end + 1;
   }
@@ -109,6 +111,7 @@ std::vector<std::string> Folder::names() const {
 
 std::string bytes_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error(path + " is not there");
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 

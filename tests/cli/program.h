@@ -58,6 +58,7 @@ class Folder {
   fs::path path_;
 };
 
+/// Throws: std::runtime_error where there is no such file.
 std::string bytes_of(const std::string& path);
 void write_bytes(const std::string& path, const std::string& bytes);
 

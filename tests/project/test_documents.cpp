@@ -125,7 +125,7 @@ TEST_CASE("documents: the proofs and formulas that the mathematics names are the
 
 TEST_CASE("documents: the headers that the pages of components name are there") {
   for (const auto& entry : fs::directory_iterator(root / "docs/components")) {
-    check_names(fs::relative(entry.path(), root), 0);
+    check_names(fs::relative(entry.path(), root), 1);
   }
 }
 

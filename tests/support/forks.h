@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <iostream>
 #include <iterator>
+#include <stdexcept>
 #include <thread>
 
 /// Work in a process of its own, which has no threads yet.
@@ -22,11 +23,14 @@ template <class Work>
 int status_of_fork(const Work& work) {
   std::cout.flush();
   const pid_t child = ::fork();
+  if (child < 0) throw std::runtime_error("no process");
   if (child == 0) std::exit(work() ? 0 : 1);
   const auto end = std::chrono::steady_clock::now() + patience;
   for (;;) {
     int status = 0;
-    if (::waitpid(child, &status, WNOHANG) != 0) return status;
+    const pid_t ended = ::waitpid(child, &status, WNOHANG);
+    if (ended < 0) throw std::runtime_error("no end of a process");
+    if (ended == child) return status;
     if (std::chrono::steady_clock::now() > end) ::kill(child, SIGKILL);
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }

@@ -90,7 +90,7 @@ ProcessEnd run_process(const std::vector<std::string>& argv,
   }
   close(ends[0]);
   int status = 0;
-  waitpid(child, &status, 0);
+  if (waitpid(child, &status, 0) != child) throw std::runtime_error("no end of a process");
   end.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return end;
 }
