@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "sphere/cube_places.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/orientation.h"
 
@@ -23,83 +24,34 @@
 // cross, a step stays. So there is work to do where memory would make the processor wait, and no
 // branch to mispredict. The few that are not there after some steps begin anew from the table.
 //
-// The table. A direction has a place on the cube: side, s and t of 28 bits each. Faces are sorted
-// by the Morton key of their centroids, so that a square of the cube holds a range of them; a
-// square with more than a few is divided by 4 × 4. An entry is the face that holds its square's
-// centre.
+// The table. A direction has a place on the cube (cube_places.h). Faces are sorted by the Morton
+// key of their centroids, so that a square of the cube holds a range of them; a square with more
+// than a few is divided by 4 × 4. An entry is the face that holds its square's centre.
 
 namespace sphparam {
 namespace {
 
-constexpr int bits_an_axis = 28;
-constexpr size_t crowd = 8;           // faces with centroids in a square, above which it is divided
-constexpr std::int64_t grain = 4096;  // faces, or directions
-constexpr std::int64_t least_sorted = 1 << 17, most_sorted = 1 << 20;  // together
-constexpr std::int64_t few = 1 << 10;  // directions that are not worth sorting
-constexpr std::int64_t ahead = 12;     // directions between asking for memory and using it
-constexpr std::int32_t cells_ahead = 24;
-constexpr int straight_steps = 64;         // before the walk chooses its edges by chance
-constexpr int most_steps = 1 << 16;        // before all faces are asked
-constexpr int lanes = 4;                   // directions that are walked to side by side
-constexpr int side_steps = 3;              // of each, before a look whether it is there
-constexpr double near_triangles = 2;       // between most directions that are not worth sorting
+// Of the table.
+constexpr size_t crowd = 8;  // faces with centroids in a square, above which it is divided
+
+// Of walks.
+constexpr int straight_steps = 64;   // before the walk chooses its edges by chance
+constexpr int most_steps = 1 << 16;  // before all faces are asked
+
+// Of rounding.
 constexpr double most_length = 4;          // |q|₁ of a usable direction
 constexpr double least_rounding = 1e-290;  // of tiny rays: their products may underflow
 constexpr double coarse_triangle = 1e-5;   // sum of dets, above which dot products are weights
 
-/// A place on the cube around the origin.
-struct CubePlace {
-  int side;            // 2·axis, +1 where negative
-  std::uint32_t s, t;  // bits_an_axis bits each
-};
-
-std::uint32_t fixed(double ratio) {
-  constexpr double size = 1u << bits_an_axis;
-  return static_cast<std::uint32_t>(std::clamp((ratio + 1) / 2 * size, 0.0, size - 1));
-}
-
-inline CubePlace cube_place(const Vector3& q) {
-  int axis = 0;
-  const double length = q.cwiseAbs().maxCoeff(&axis);
-  const int a = axis == 2 ? 0 : axis + 1, b = axis == 0 ? 2 : axis - 1;
-  return {2 * axis + (q[axis] < 0), fixed(q[a] / length), fixed(q[b] / length)};
-}
-
-/// The bits of s at even places.
-std::uint64_t spread(std::uint64_t s) {
-  s = (s | s << 16) & 0x0000ffff0000ffff;
-  s = (s | s << 8) & 0x00ff00ff00ff00ff;
-  s = (s | s << 4) & 0x0f0f0f0f0f0f0f0f;
-  s = (s | s << 2) & 0x3333333333333333;
-  return (s | s << 1) & 0x5555555555555555;
-}
-
-std::uint32_t gather(std::uint64_t s) {
-  s &= 0x5555555555555555;
-  s = (s | s >> 1) & 0x3333333333333333;
-  s = (s | s >> 2) & 0x0f0f0f0f0f0f0f0f;
-  s = (s | s >> 4) & 0x00ff00ff00ff00ff;
-  s = (s | s >> 8) & 0x0000ffff0000ffff;
-  return static_cast<std::uint32_t>(s | s >> 16);
-}
-
-std::uint64_t morton_key(const CubePlace& place) {
-  return static_cast<std::uint64_t>(place.side) << 2 * bits_an_axis | spread(place.t) << 1 |
-         spread(place.s);
-}
-
-/// The direction of the centre of the square of keys [key, key + 2^bits).
-Vector3 square_centre(std::uint64_t key, int bits) {
-  const auto side = static_cast<int>(key >> 2 * bits_an_axis);
-  const double half = std::ldexp(0.5, bits / 2), size = 1u << bits_an_axis;
-  const int axis = side / 2, a = axis == 2 ? 0 : axis + 1, b = axis == 0 ? 2 : axis - 1;
-  const std::uint64_t place = key & ((std::uint64_t{1} << 2 * bits_an_axis) - 1);
-  Vector3 q;
-  q[axis] = side % 2 ? -1 : 1;
-  q[a] = 2 * (gather(place) + half) / size - 1;
-  q[b] = 2 * (gather(place >> 1) + half) / size - 1;
-  return q.normalized();
-}
+// Of many directions.
+constexpr std::int64_t grain = 4096;   // faces, or directions
+constexpr int lanes = 4;               // directions that are walked to side by side
+constexpr int side_steps = 3;          // of each, before a look whether it is there
+constexpr std::int64_t few = 1 << 10;  // directions that are not worth sorting
+constexpr double near_triangles = 2;   // between most directions that are not worth sorting
+constexpr std::int64_t least_sorted = 1 << 17, most_sorted = 1 << 20;  // together
+constexpr std::int64_t ahead = 12;  // directions between asking for memory and using it
+constexpr std::int32_t cells_ahead = 24;
 
 /// The direction, scaled by a power of two unless ½ ≤ |q| ≤ 2: nothing over- or underflows, and
 /// |q|₁ ≤ most_length.
@@ -216,8 +168,8 @@ void SphereLocator::make_table(const std::vector<Keyed>& order) {
     if (last > first) near = static_cast<std::int32_t>(first);
     const std::uint64_t place = square & ((std::uint64_t{1} << 2 * level_) - 1);
     const auto side = static_cast<size_t>(square >> 2 * level_);
-    const size_t row = (side << level_) + gather(place >> 1);
-    table_[(row << level_) + gather(place)] = make_entry(order, key, bits, first, last, near);
+    const size_t row = (side << level_) + gather_bits(place >> 1);
+    table_[(row << level_) + gather_bits(place)] = make_entry(order, key, bits, first, last, near);
     first = last;
   }
 }
@@ -236,7 +188,7 @@ std::int32_t SphereLocator::make_entry(const std::vector<Keyed>& order, std::uin
     while (child_last < last && order[child_last].key < end) ++child_last;
     if (child_last > first) near = static_cast<std::int32_t>(first);
     const std::int32_t entry = make_entry(order, child_key, bits - 4, first, child_last, near);
-    table_[children + 4 * gather(child >> 1) + gather(child)] = entry;
+    table_[children + 4 * gather_bits(child >> 1) + gather_bits(child)] = entry;
     first = child_last;
   }
   return ~static_cast<std::int32_t>(children);
