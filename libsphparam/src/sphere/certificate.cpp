@@ -94,16 +94,29 @@ struct RayCount {
   }
 };
 
-struct Findings {
+template <class Id>
+void append(std::vector<Id>& to, const std::vector<Id>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+struct FaceFindings {
   std::vector<Face> folded, degenerate;
   double solid_angle = 0;
-  RayCount count;
+  RayCount probed;
+
+  void merge(const FaceFindings& next) {
+    append(folded, next.folded);
+    append(degenerate, next.degenerate);
+    solid_angle += next.solid_angle;
+    probed.cones += next.probed.cones;
+    probed.generic = probed.generic && next.probed.generic;
+  }
 };
 
 /// `unit`: all rays are, nearly. Counts the cones of `probe` on the way.
-Findings examine_faces(const Topology& topology, const SphereMap& map, bool unit,
-                       const Vector3& probe, Face first, Face last) {
-  Findings findings;
+FaceFindings examine_faces(const Topology& topology, const SphereMap& map, bool unit,
+                           const Vector3& probe, Face first, Face last) {
+  FaceFindings findings;
   AngleSum half_solid_angle;
   // stableNormalized: rays may be tiny or huge, and this is only the cross-check.
   const auto ray = [&](const Vector3& x) { return unit ? x : Vector3(x.stableNormalized()); };
@@ -114,7 +127,7 @@ Findings examine_faces(const Topology& topology, const SphereMap& map, bool unit
     const int sign = orientation(a, b, c);
     if (sign < 0) findings.folded.push_back(f);
     if (sign == 0) findings.degenerate.push_back(f);
-    if (sign > 0) findings.count.add(a, b, c, probe);
+    if (sign > 0) findings.probed.add(a, b, c, probe);
     const HalfSolidAngle angle = half_solid_angle_of(ray(a), ray(b), ray(c));
     half_solid_angle.add(angle.sine, angle.cosine);
   }
@@ -125,6 +138,11 @@ Findings examine_faces(const Topology& topology, const SphereMap& map, bool unit
 struct PointFindings {
   std::vector<Vertex> unusable;
   double length_error = 0;
+
+  void merge(const PointFindings& next) {
+    append(unusable, next.unusable);
+    length_error = std::max(length_error, next.length_error);
+  }
 };
 
 PointFindings examine_points(const SphereMap& map, Vertex first, Vertex last) {
@@ -141,6 +159,19 @@ PointFindings examine_points(const SphereMap& map, Vertex first, Vertex last) {
     findings.length_error = std::max(findings.length_error, std::abs(length - 1));
   }
   return findings;
+}
+
+/// What `examine(first, last)` finds of some at a time, merged in their order.
+template <class Findings, class Examine>
+Findings examine_in_chunks(int count, int threads, const Examine& examine) {
+  std::vector<Findings> chunks(static_cast<size_t>((count + chunk_size - 1) / chunk_size));
+  parallel_for(count, chunk_size, threads, [&](std::int64_t first, std::int64_t last) {
+    chunks[static_cast<size_t>(first / chunk_size)] =
+        examine(static_cast<int>(first), static_cast<int>(last));
+  });
+  Findings all;
+  for (const Findings& chunk : chunks) all.merge(chunk);
+  return all;
 }
 
 /// Directions that no mesh made by people has on its edges; tried in order until one is generic.
@@ -200,49 +231,30 @@ std::vector<Vertex> branch_vertices(const Topology& topology, const SphereMap& m
 
 Certificate certify(const Topology& topology, const SphereMap& map, int threads) {
   require_rays("certify", map, topology.vertex_count());
-  // 1. Points: finite, and how far from the sphere.
   Certificate certificate;
-  const Vertex vertices = topology.vertex_count();
-  std::vector<PointFindings> point_chunks(
-      static_cast<size_t>((vertices + chunk_size - 1) / chunk_size));
-  parallel_for(vertices, chunk_size, threads, [&](std::int64_t first, std::int64_t last) {
-    point_chunks[static_cast<size_t>(first / chunk_size)] =
-        examine_points(map, static_cast<Vertex>(first), static_cast<Vertex>(last));
-  });
-  for (const PointFindings& chunk : point_chunks) {
-    certificate.unusable_points.insert(certificate.unusable_points.end(), chunk.unusable.begin(),
-                                       chunk.unusable.end());
-    certificate.max_length_error = std::max(certificate.max_length_error, chunk.length_error);
-  }
+  // 1. Points: finite, and how far from the sphere.
+  PointFindings points = examine_in_chunks<PointFindings>(
+      topology.vertex_count(), threads,
+      [&](Vertex first, Vertex last) { return examine_points(map, first, last); });
+  certificate.unusable_points = std::move(points.unusable);
+  certificate.max_length_error = points.length_error;
   if (!certificate.unusable_points.empty()) return certificate;
 
   // 2. Faces: exact orientations, solid angles, and which of them a ray meets.
   const bool unit = certificate.max_length_error < nearly_unit;
   const Vector3 probe = generic_rays().front();
-  const Face faces = topology.face_count();
-  std::vector<Findings> chunks(static_cast<size_t>((faces + chunk_size - 1) / chunk_size));
-  parallel_for(faces, chunk_size, threads, [&](std::int64_t first, std::int64_t last) {
-    chunks[static_cast<size_t>(first / chunk_size)] = examine_faces(
-        topology, map, unit, probe, static_cast<Face>(first), static_cast<Face>(last));
+  const Face count = topology.face_count();
+  FaceFindings faces = examine_in_chunks<FaceFindings>(count, threads, [&](Face first, Face last) {
+    return examine_faces(topology, map, unit, probe, first, last);
   });
-  double solid_angle_sum = 0;
-  RayCount probed;
-  for (const Findings& chunk : chunks) {
-    const auto append = [](std::vector<Face>& to, const std::vector<Face>& from) {
-      to.insert(to.end(), from.begin(), from.end());
-    };
-    append(certificate.folded, chunk.folded);
-    append(certificate.degenerate, chunk.degenerate);
-    solid_angle_sum += chunk.solid_angle;
-    probed.cones += chunk.count.cones;
-    probed.generic = probed.generic && chunk.count.generic;
-  }
-  certificate.covering = solid_angle_sum / (4 * std::numbers::pi);
-  certificate.reversed = faces > 0 && static_cast<Face>(certificate.folded.size()) == faces;
+  certificate.folded = std::move(faces.folded);
+  certificate.degenerate = std::move(faces.degenerate);
+  certificate.covering = faces.solid_angle / (4 * std::numbers::pi);
+  certificate.reversed = count > 0 && static_cast<Face>(certificate.folded.size()) == count;
   if (certificate.fold_count() > 0) return certificate;
 
   // 3. All are positive: the map covers the sphere degree times; once, and it is one-to-one.
-  certificate.degree = degree_by_ray(topology, map, probed);
+  certificate.degree = degree_by_ray(topology, map, faces.probed);
   if (certificate.degree != 1) certificate.branch_vertices = branch_vertices(topology, map);
   return certificate;
 }
