@@ -58,7 +58,7 @@ def reason(text):
     if re.search("one-sided|orient", text):
         return "one-sided"
     lines = [line.strip() for line in text.splitlines() if line.strip()]
-    rest = [line for line in lines[1:] if not line.startswith("hint")]
+    rest = [line for line in lines[1:] if not line.startswith("hint") and not line.endswith(":")]
     return (rest or lines or ["?"])[0][:90].replace("|", "\\|")
 
 
