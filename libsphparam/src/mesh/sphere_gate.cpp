@@ -1,9 +1,9 @@
+#include "mesh/sphere_gate.h"
+
 #include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include "sphparam/mesh/mesh_defects.h"
 
 // Topology refuses all that is no closed manifold; what is left is counted. Only a mesh that fails
 // is inspected, for the reasons.
@@ -32,14 +32,6 @@ bool is_connected(const Topology& topology) {
   return reached == topology.vertex_count();
 }
 
-[[noreturn]] void refuse(const TriangleMesh& mesh) {
-  std::vector<MeshDefect> reasons;
-  for (MeshDefect& defect : inspect_mesh(mesh).defects) {
-    if (defect.fatal || defect.kind == DefectKind::UnusedVertex) reasons.push_back(defect);
-  }
-  throw MeshError(std::move(reasons));
-}
-
 /// Whether any of them is a defect of the surface, or nobody says what is wrong; else there are no
 /// faces, or only vertices that do not exist or have no place.
 bool are_of_surface(const std::vector<MeshDefect>& defects) {
@@ -59,11 +51,19 @@ std::string joined_messages(const std::vector<MeshDefect>& defects) {
 
 }  // namespace
 
+void refuse_mesh(const TriangleMesh& mesh) {
+  std::vector<MeshDefect> reasons;
+  for (MeshDefect& defect : inspect_mesh(mesh).defects) {
+    if (defect.fatal || defect.kind == DefectKind::UnusedVertex) reasons.push_back(defect);
+  }
+  throw MeshError(std::move(reasons));
+}
+
 MeshError::MeshError(std::vector<MeshDefect> defects)
     : std::runtime_error(joined_messages(defects)), defects_(std::move(defects)) {}
 
 Topology require_sphere(const TriangleMesh& mesh, int threads) {
-  if (mesh.face_count() < 4 || !mesh.positions.allFinite()) refuse(mesh);
+  if (mesh.face_count() < 4 || !mesh.positions.allFinite()) refuse_mesh(mesh);
   Topology topology(mesh, threads);
   require_sphere(mesh, topology);
   return topology;
@@ -75,7 +75,7 @@ void require_sphere(const TriangleMesh& mesh, const Topology& topology) {
   // A torus beside two spheres has characteristic 2 as well.
   if (mesh.face_count() < 4 || !mesh.positions.allFinite() || characteristic != 2 ||
       !is_connected(topology)) {
-    refuse(mesh);
+    refuse_mesh(mesh);
   }
 }
 

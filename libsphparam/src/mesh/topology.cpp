@@ -4,10 +4,12 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <span>
 #include <utility>
 
 #include "mesh/index_range.h"
-#include "sphparam/mesh/mesh_defects.h"
+#include "mesh/sphere_gate.h"
 #include "sphparam/parallel.h"
 
 // Corners are bucketed by vertex (a counting sort). At a vertex, every face has one half-edge that
@@ -46,6 +48,7 @@ bool match_pairwise(const Corner* corners, int count, int* partner) {
   return true;
 }
 
+/// The same for any number.
 bool match_sorted(const Corner* corners, int count, int* partner) {
   std::vector<std::pair<Vertex, int>> targets, sources;
   for (int i = 0; i < count; ++i) {
@@ -72,15 +75,52 @@ bool is_one_fan(const int* partner, int count) {
   return steps == count;
 }
 
-[[noreturn]] void refuse(const Triangles& triangles, int vertex_count) {
-  TriangleMesh mesh;
-  mesh.positions = Points::Zero(vertex_count, 3);
-  mesh.triangles = triangles;
-  std::vector<MeshDefect> reasons;
-  for (MeshDefect& defect : inspect_mesh(mesh).defects) {
-    if (defect.fatal || defect.kind == DefectKind::UnusedVertex) reasons.push_back(defect);
+/// For each corner of a vertex, the next one about it. False: they are not one closed fan.
+bool find_fan(std::span<const Corner> corners, std::vector<int>& partner) {
+  const int count = static_cast<int>(corners.size());
+  partner.resize(std::max(partner.size(), corners.size()));
+  const bool matched = count <= most_pairwise
+                           ? match_pairwise(corners.data(), count, partner.data())
+                           : match_sorted(corners.data(), count, partner.data());
+  return matched && is_one_fan(partner.data(), count);
+}
+
+/// All corners, those of a vertex together.
+struct VertexCorners {
+  std::vector<int> start;  // #V + 1
+  std::unique_ptr<Corner[]> corners;
+
+  std::span<const Corner> of(std::int64_t v) const {
+    return {corners.get() + start[at(v)], corners.get() + start[at(v) + 1]};
   }
-  throw MeshError(std::move(reasons));
+};
+
+/// Nothing: a face names a vertex that is not there, or one twice.
+std::optional<VertexCorners> corners_by_vertex(const std::vector<Vertex>& origin,
+                                               int vertex_count) {
+  VertexCorners by_vertex{std::vector<int>(at(vertex_count) + 1, 0), nullptr};
+  std::vector<int>& start = by_vertex.start;
+  for (const Vertex v : origin) {
+    if (v < 0 || v >= vertex_count) return std::nullopt;
+    ++start[at(v) + 1];
+  }
+  for (size_t v = 0; v < at(vertex_count); ++v) start[v + 1] += start[v];
+
+  by_vertex.corners = std::make_unique_for_overwrite<Corner[]>(origin.size());
+  std::vector<int> place(start.begin(), start.end() - 1);
+  for (Halfedge h = 0; h < std::ssize(origin); h += 3) {
+    const Vertex a = origin[at(h)], b = origin[at(h) + 1], c = origin[at(h) + 2];
+    if (a == b || b == c || c == a) return std::nullopt;
+    by_vertex.corners[at(place[at(a)]++)] = {b, c, h};
+    by_vertex.corners[at(place[at(b)]++)] = {c, a, h + 1};
+    by_vertex.corners[at(place[at(c)]++)] = {a, b, h + 2};
+  }
+  return by_vertex;
+}
+
+/// By its triangles alone.
+[[noreturn]] void refuse(const Triangles& triangles, int vertex_count) {
+  refuse_mesh({Points::Zero(vertex_count, 3), triangles});
 }
 
 int vertex_count_of(const TriangleMesh& mesh) {
@@ -114,50 +154,24 @@ bool Topology::is_of(const Triangles& triangles) const {
 
 bool Topology::build(const Triangles& triangles, int vertex_count, int threads) {
   require_numbered(triangles.rows(), vertex_count);
-  // 1. How many corners every vertex has, and where the list of them starts.
-  const size_t halfedges = at(triangles.size());
-  origin_.assign(triangles.data(), triangles.data() + halfedges);
-  std::vector<int> start(at(vertex_count) + 1, 0);
-  for (const Vertex v : origin_) {
-    if (v < 0 || v >= vertex_count) return false;
-    ++start[at(v) + 1];
-  }
-  for (size_t v = 0; v < at(vertex_count); ++v) start[v + 1] += start[v];
-
-  // 2. The corners, vertex by vertex.
-  const auto corners = std::make_unique_for_overwrite<Corner[]>(halfedges);
-  {
-    std::vector<int> place(start.begin(), start.end() - 1);
-    for (Halfedge h = 0; h < static_cast<Halfedge>(halfedges); h += 3) {
-      const Vertex a = origin(h), b = origin(h + 1), c = origin(h + 2);
-      if (a == b || b == c || c == a) return false;
-      corners[at(place[at(a)]++)] = {b, c, h};
-      corners[at(place[at(b)]++)] = {c, a, h + 1};
-      corners[at(place[at(c)]++)] = {a, b, h + 2};
-    }
-  }
-
-  // 3. At every vertex each corner's next one about it: together they must be one closed fan.
-  twin_.resize(halfedges);
+  origin_.assign(triangles.data(), triangles.data() + triangles.size());
+  const std::optional<VertexCorners> by_vertex = corners_by_vertex(origin_, vertex_count);
+  if (!by_vertex) return false;
+  twin_.resize(origin_.size());
   outgoing_.resize(at(vertex_count));
   std::atomic<bool> sound{true};
   parallel_for(vertex_count, grain, threads, [&](std::int64_t first, std::int64_t last) {
     std::vector<int> partner;
     for (std::int64_t v = first; v < last; ++v) {
-      const Corner* at_v = &corners[at(start[at(v)])];
-      const int count = start[at(v) + 1] - start[at(v)];
-      outgoing_[at(v)] = count > 0 ? at_v->leaving : -1;
-      if (count == 0) continue;
-      partner.resize(std::max(partner.size(), at(count)));
-      const bool matched = count <= most_pairwise ? match_pairwise(at_v, count, partner.data())
-                                                  : match_sorted(at_v, count, partner.data());
-      if (!matched || !is_one_fan(partner.data(), count)) {
+      const std::span<const Corner> corners = by_vertex->of(v);
+      outgoing_[at(v)] = corners.empty() ? -1 : corners.front().leaving;
+      if (corners.empty()) continue;
+      if (!find_fan(corners, partner)) {
         sound = false;
         return;
       }
-      for (int i = 0; i < count; ++i) {
-        twin_[at(at_v[i].leaving)] = previous(at_v[at(partner[at(i)])].leaving);
-      }
+      for (size_t i = 0; i < corners.size(); ++i)
+        twin_[at(corners[i].leaving)] = previous(corners[at(partner[i])].leaving);
     }
   });
   return sound;
