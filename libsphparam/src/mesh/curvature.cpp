@@ -167,53 +167,80 @@ Measures measure_vertices(const TriangleMesh& mesh, const Topology& topology, co
   return measures;
 }
 
-enum class Known : char { No, Yes, Never };  // Never: only fillers use it
-
 /// Rims have measures of a boundary, which are no curvature of the surface: they get the density of
 /// their neighbours inside, or of those that have got it; what only fillers use gets nothing.
-/// `area`: of the surface, positive.
-void leave_out_fillers(const Topology& topology, const FillerMarks& fillers, const VectorX& area,
-                       Measures& measures) {
-  const auto count = static_cast<Vertex>(area.size());
-  std::vector<Known> known(static_cast<size_t>(count), Known::Yes);
-  const auto known_of = [&](Vertex v) -> Known& { return known[static_cast<size_t>(v)]; };
-  std::vector<Vertex> waiting;
-  for (Vertex v = 0; v < count; ++v) {
+class RimMeasures {
+ public:
+  /// area: of the surface, positive.
+  RimMeasures(const Topology& topology, const FillerMarks& fillers, const VectorX& area,
+              Measures& measures)
+      : topology_(topology),
+        area_(area),
+        measures_(measures),
+        known_(static_cast<size_t>(area.size()), Known::Yes) {
+    for (Vertex v = 0; v < static_cast<Vertex>(area.size()); ++v) forget_beside_fillers(v, fillers);
+  }
+
+  /// Ring by ring of the rims, from the inside.
+  void spread() {
+    while (!waiting_.empty()) {
+      std::vector<Vertex> reached;
+      for (const Vertex v : waiting_)
+        if (take_from_neighbours(v)) reached.push_back(v);
+      for (const Vertex v : reached) known(v) = Known::Yes;
+      waiting_ = unknown_beside(reached);
+    }
+  }
+
+ private:
+  enum class Known : char { No, Yes, Never };  // Never: only fillers use it
+
+  Known& known(Vertex v) { return known_[static_cast<size_t>(v)]; }
+
+  void forget_beside_fillers(Vertex v, const FillerMarks& fillers) {
     bool surface = false, filler = false;
-    topology.for_each_outgoing(
+    topology_.for_each_outgoing(
         v, [&](Halfedge h) { (is_filler(fillers, Topology::face(h)) ? filler : surface) = true; });
-    if (!filler) continue;
-    measures.mean[v] = measures.gauss[v] = 0;
-    known_of(v) = surface ? Known::No : Known::Never;
-    if (surface) waiting.push_back(v);
+    if (!filler) return;
+    measures_.mean[v] = measures_.gauss[v] = 0;
+    known(v) = surface ? Known::No : Known::Never;
+    if (surface) waiting_.push_back(v);
   }
-  while (!waiting.empty()) {
-    std::vector<Vertex> reached, next;
-    for (const Vertex v : waiting) {
-      double sum = 0, mean = 0, gauss = 0;
-      topology.for_each_outgoing(v, [&](Halfedge h) {
-        const Vertex other = topology.target(h);
-        if (known_of(other) != Known::Yes) return;
-        mean += measures.mean[other];
-        gauss += measures.gauss[other];
-        sum += area[other];
-      });
-      if (!(sum > 0)) continue;
-      measures.mean[v] = area[v] * (mean / sum);
-      measures.gauss[v] = area[v] * (gauss / sum);
-      reached.push_back(v);
-    }
-    for (const Vertex v : reached) known_of(v) = Known::Yes;
-    for (const Vertex v : reached) {
-      topology.for_each_outgoing(v, [&](Halfedge h) {
-        if (known_of(topology.target(h)) == Known::No) next.push_back(topology.target(h));
-      });
-    }
-    std::sort(next.begin(), next.end());
-    next.erase(std::unique(next.begin(), next.end()), next.end());
-    waiting = std::move(next);
+
+  /// False: none of them has any.
+  bool take_from_neighbours(Vertex v) {
+    double sum = 0, mean = 0, gauss = 0;
+    topology_.for_each_outgoing(v, [&](Halfedge h) {
+      const Vertex other = topology_.target(h);
+      if (known(other) != Known::Yes) return;
+      mean += measures_.mean[other];
+      gauss += measures_.gauss[other];
+      sum += area_[other];
+    });
+    if (!(sum > 0)) return false;
+    measures_.mean[v] = area_[v] * (mean / sum);
+    measures_.gauss[v] = area_[v] * (gauss / sum);
+    return true;
   }
-}
+
+  std::vector<Vertex> unknown_beside(const std::vector<Vertex>& vertices) {
+    std::vector<Vertex> beside;
+    for (const Vertex v : vertices) {
+      topology_.for_each_outgoing(v, [&](Halfedge h) {
+        if (known(topology_.target(h)) == Known::No) beside.push_back(topology_.target(h));
+      });
+    }
+    std::sort(beside.begin(), beside.end());
+    beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
+    return beside;
+  }
+
+  const Topology& topology_;
+  const VectorX& area_;
+  Measures& measures_;
+  std::vector<Known> known_;
+  std::vector<Vertex> waiting_;
+};
 
 double total_area(const TriangleMesh& mesh, int threads) {
   return parallel_sum(mesh.face_count(), threads, [&](std::int64_t first, std::int64_t last) {
@@ -252,7 +279,7 @@ Curvature measure_harmless(const TriangleMesh& mesh, const Topology& topology, d
   const double mean_area = measures.area.mean();
   VectorX& area = measures.area;
   area = area.cwiseMax(mean_area > 0 ? std::max(area_floor * mean_area, least_area) : 1);
-  if (!fillers.empty()) leave_out_fillers(topology, fillers, area, measures);
+  if (!fillers.empty()) RimMeasures(topology, fillers, area, measures).spread();
   Curvature curvature{measures.mean.cwiseQuotient(area), measures.gauss.cwiseQuotient(area), area,
                       scale};
   if (!(scale > 0) || !(mean_area > 0)) return curvature;

@@ -49,6 +49,31 @@ double tan_half_angle(const Corners& c, size_t k) {
   return denominator > 0 ? c.twice_area / denominator : std::numeric_limits<double>::infinity();
 }
 
+/// ½ cot α = ½ (r_1·r_2) / 2A, of each edge's opposite angle.
+std::array<double, 3> cotangent_terms(const Corners& c) {
+  const double longest = std::max({c.length[0], c.length[1], c.length[2]});
+  const double twice_area = std::max(c.twice_area, 2 * area_floor * longest * longest);
+  std::array<double, 3> terms;
+  for (size_t k = 0; k < 3; ++k)
+    terms[k] = twice_area > 0 ? 0.5 * c.dot[(k + 2) % 3] / twice_area : 0;
+  return terms;
+}
+
+/// tan(γ/2) / r of each edge, γ the angle where it begins and where it ends.
+struct MeanValueTerms {
+  std::array<double, 3> at_origin, at_target;
+};
+MeanValueTerms mean_value_terms(const Corners& c) {
+  const std::array<double, 3> tangent = {tan_half_angle(c, 0), tan_half_angle(c, 1),
+                                         tan_half_angle(c, 2)};
+  MeanValueTerms terms;
+  for (size_t k = 0; k < 3; ++k) {
+    terms.at_origin[k] = tangent[k] / c.length[k];
+    terms.at_target[k] = tangent[(k + 1) % 3] / c.length[k];
+  }
+  return terms;
+}
+
 double median_of_sample(const std::vector<double>& terms) {
   const size_t step = 1 + terms.size() / static_cast<size_t>(median_samples);
   std::vector<double> sample;
@@ -73,25 +98,15 @@ EdgeWeights::EdgeWeights(const TriangleMesh& mesh, const Topology& topology, Wei
       const Corners c = measure(mesh, topology, f);
       const size_t h = 3 * static_cast<size_t>(f);
       if (kind == WeightKind::Cotangent) {
-        const double longest = std::max({c.length[0], c.length[1], c.length[2]});
-        const double twice_area = std::max(c.twice_area, 2 * area_floor * longest * longest);
-        for (size_t k = 0; k < 3; ++k) {
-          // ½ cot α = ½ (r_1·r_2) / 2A
-          forward_[h + k] = twice_area > 0 ? 0.5 * c.dot[(k + 2) % 3] / twice_area : 0;
-        }
+        std::ranges::copy(cotangent_terms(c), &forward_[h]);
         continue;
       }
-      const std::array<double, 3> tangent = {tan_half_angle(c, 0), tan_half_angle(c, 1),
-                                             tan_half_angle(c, 2)};
-      for (size_t k = 0; k < 3; ++k) {
-        const double at_origin = tangent[k] / c.length[k];
-        const double at_target = tangent[(k + 1) % 3] / c.length[k];
-        if (kind == WeightKind::MeanValue) {
-          forward_[h + k] = at_origin;
-          backward_[h + k] = at_target;
-        } else {
-          forward_[h + k] = 0.5 * (at_origin + at_target);
-        }
+      const auto [at_origin, at_target] = mean_value_terms(c);
+      if (kind == WeightKind::MeanValue) {
+        std::ranges::copy(at_origin, &forward_[h]);
+        std::ranges::copy(at_target, &backward_[h]);
+      } else {
+        for (size_t k = 0; k < 3; ++k) forward_[h + k] = 0.5 * (at_origin[k] + at_target[k]);
       }
     }
   };

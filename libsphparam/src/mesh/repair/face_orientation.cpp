@@ -21,38 +21,50 @@ std::vector<Halfedge> twins_of_simple_edges(const RepairState& state) {
   return twin;
 }
 
+constexpr char unseen = -1;
+
+struct Patch {
+  std::vector<Face> faces;
+  bool one_sided = false;
+  size_t turned_count = 0;
+};
+
+/// Walks the patch of this face. `turned`, a face: whether it runs the other way than the first.
+Patch walk_patch(const RepairState& state, const std::vector<Halfedge>& twin, Face first,
+                 std::vector<char>& turned) {
+  turned[first] = 0;
+  Patch patch{{first}};
+  for (size_t at = 0; at < patch.faces.size(); ++at) {
+    const Face f = patch.faces[at];
+    patch.turned_count += turned[f];
+    for (int k = 0; k < 3; ++k) {
+      const Halfedge across = twin[3 * f + k];
+      if (across == none) continue;
+      const bool runs_alike = state.corner(across) == state.faces[f][k];
+      const char wanted = turned[f] ^ static_cast<char>(runs_alike);
+      char& mark = turned[across / 3];
+      if (mark == unseen) {
+        mark = wanted;
+        patch.faces.push_back(across / 3);
+      }
+      patch.one_sided = patch.one_sided || mark != wanted;
+    }
+  }
+  return patch;
+}
+
 }  // namespace
 
 void orient_alike(RepairState& state) {
   const std::vector<Halfedge> twin = twins_of_simple_edges(state);
-  constexpr char unseen = -1;
   std::vector<char> turned(state.faces.size(), unseen);
   std::vector<char> stands(state.faces.size(), 1);
   for (Face first = 0; first < state.face_count(); ++first) {
     if (turned[first] != unseen) continue;
-    turned[first] = 0;
-    std::vector<Face> patch{first};
-    bool one_sided = false;
-    size_t turned_count = 0;
-    for (size_t at = 0; at < patch.size(); ++at) {
-      const Face f = patch[at];
-      turned_count += turned[f];
-      for (int k = 0; k < 3; ++k) {
-        const Halfedge across = twin[3 * f + k];
-        if (across == none) continue;
-        const bool runs_alike = state.corner(across) == state.faces[f][k];
-        const char wanted = turned[f] ^ static_cast<char>(runs_alike);
-        char& mark = turned[across / 3];
-        if (mark == unseen) {
-          mark = wanted;
-          patch.push_back(across / 3);
-        }
-        one_sided = one_sided || mark != wanted;
-      }
-    }
-    if (one_sided) continue;
-    const char majority = turned_count * 2 > patch.size() ? 1 : 0;
-    for (const Face f : patch) stands[f] = turned[f] == majority;
+    const Patch patch = walk_patch(state, twin, first, turned);
+    if (patch.one_sided) continue;
+    const char majority = patch.turned_count * 2 > patch.faces.size() ? 1 : 0;
+    for (const Face f : patch.faces) stands[f] = turned[f] == majority;
   }
   for (Face f = 0; f < state.face_count(); ++f) {
     if (stands[f]) continue;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 
 #include "io/files/text_buffer.h"
 #include "io/files/text_scanner.h"
@@ -38,6 +39,34 @@ int key_of(const VertexData& data) {
   return key;
 }
 
+void require_usable(Eigen::Index vertices, const std::string& name, const ReadOptions& options) {
+  if (vertices == 0)
+    throw ReadError(name,
+                    "a label does not say how many vertices its surface has, which is "
+                    "needed: name the surface");
+  if (vertices > options.max_vertices)
+    throw ReadError(name, "is of " + std::to_string(vertices) + " vertices, over the limit of " +
+                              std::to_string(options.max_vertices));
+}
+
+long read_count(TextScanner& scanner, long most) {
+  if (!scanner.next_filled_line()) scanner.fail("the file ends before its count");
+  const long count = scanner.integer();
+  if (count < 0 || count > most)
+    scanner.fail(std::to_string(count) + " vertices in the label, of " + std::to_string(most));
+  return count;
+}
+
+/// A vertex of the label, with its number: 0 where it has none.
+std::pair<long, double> read_vertex(TextScanner& scanner, Eigen::Index vertices) {
+  const long v = scanner.integer();
+  if (v < 0 || (vertices != any_vertices && v >= vertices))
+    scanner.fail("names vertex " + std::to_string(v) + " of " + std::to_string(vertices) +
+                 " (counted from 0)");
+  for (int axis = 0; axis < 3; ++axis) scanner.real();
+  return {v, scanner.at_line_end() ? 0 : scanner.real()};
+}
+
 }  // namespace
 
 bool looks_like_label_file(std::string_view bytes) { return bytes.starts_with(first_line); }
@@ -46,19 +75,10 @@ VertexData read_label_file(std::string_view bytes, const std::string& name, Eige
                            const ReadOptions& options) {
   TextScanner scanner(bytes, name, options);
   scanner.require_text();
-  if (vertices == 0)
-    throw ReadError(name,
-                    "a label does not say how many vertices its surface has, which is "
-                    "needed: name the surface");
-  if (vertices > options.max_vertices)
-    throw ReadError(name, "is of " + std::to_string(vertices) + " vertices, over the limit of " +
-                              std::to_string(options.max_vertices));
-  if (!scanner.next_filled_line()) scanner.fail("the file ends before its count");
-  const long count = scanner.integer();
+  require_usable(vertices, name, options);
   const bool alone = vertices == any_vertices;
-  const long most = alone ? std::min<long>(options.max_vertices, std::ssize(bytes)) : vertices;
-  if (count < 0 || count > most)
-    scanner.fail(std::to_string(count) + " vertices in the label, of " + std::to_string(most));
+  const long count = read_count(
+      scanner, alone ? std::min<long>(options.max_vertices, std::ssize(bytes)) : vertices);
   VertexData data;
   data.format = "FreeSurfer label";
   data.kind = DataKind::Labels;
@@ -71,12 +91,7 @@ VertexData read_label_file(std::string_view bytes, const std::string& name, Eige
     if (!scanner.next_filled_line())
       scanner.fail("the file ends after " + std::to_string(i) + " of " + std::to_string(count) +
                    " vertices");
-    const long v = scanner.integer();
-    if (v < 0 || (!alone && v >= vertices))
-      scanner.fail("names vertex " + std::to_string(v) + " of " + std::to_string(vertices) +
-                   " (counted from 0)");
-    for (int axis = 0; axis < 3; ++axis) scanner.real();
-    const double number = scanner.at_line_end() ? 0 : scanner.real();
+    const auto [v, number] = read_vertex(scanner, vertices);
     with_number += number != 0 && number != 1;
     if (!alone) column.values[static_cast<std::size_t>(v)] = 1;
   }
