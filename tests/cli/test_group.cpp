@@ -61,6 +61,13 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
+std::vector<std::string> cells_of(const std::string& row) {
+  std::vector<std::string> cells;
+  std::istringstream in(row);
+  for (std::string cell; std::getline(in, cell, '\t');) cells.push_back(cell);
+  return cells;
+}
+
 long columns(const std::string& line) { return 1 + std::ranges::count(line, '\t'); }
 
 /// The RMS distance of a surface from its centroid: of |x|² a triangle of area A has the integral
@@ -179,11 +186,7 @@ TEST_CASE(
             Approx(scale ? double(report["mean_size"]) : size).epsilon(1e-12));
       CHECK(double(shape["scale"]) * size ==
             Approx(scale ? double(report["mean_size"]) : size).epsilon(1e-12));
-      std::istringstream row(rows[i + 1]);
-      std::string shape_name, start;
-      double energy = 0, in_table = 0;
-      row >> shape_name >> start >> energy >> in_table;
-      CHECK(in_table == size);
+      CHECK(std::stod(cells_of(rows[i + 1])[3]) == size);
       sum += size;
     }
     CHECK(double(report["mean_size"]) == Approx(sum / 3).epsilon(1e-12));
@@ -220,8 +223,8 @@ TEST_CASE(
   CHECK(report["shapes"][0]["components"].is_null());
   CHECK(report["template_mended"].is_null());
   const auto rows = lines_of(bytes_of(eggs.in_out("shapes.tsv")));
-  CHECK_THAT(rows[0], Catch::EndsWith("\trepairs"));
-  CHECK_THAT(rows[1], Catch::EndsWith("\t"));
+  CHECK_THAT(rows[0], Catch::EndsWith("\trepairs\tfile"));
+  CHECK_THAT(rows[1], Catch::EndsWith("\t\t" + eggs.paths[0]));
   CHECK_THAT(rows[2], Contains("hole-filled 1") && Contains("; "));
   CHECK_THAT(bytes_of(eggs.in_out("index.html")), Contains("Mended before they were mapped") &&
                                                       Contains("egg1: 1 ") && Contains("kept 9"));
@@ -263,11 +266,28 @@ TEST_CASE("group: a template that is no shape does not count, and held maps stay
   CHECK(report["shapes"].size() == 2);
   CHECK(report["grid"] == "template");
   CHECK(report["shapes"][0]["energy"].is_null());
+  CHECK(cells_of(lines_of(bytes_of(eggs.in_out("shapes.tsv")))[1])[2].empty());
   CHECK(report["template"] == other);
   const auto count = [](const std::string& path) {
     return read_mesh(fs::path(path)).mesh.vertex_count();
   };
   CHECK(count(eggs.in_out("mean.sph.ply")) == count(other));
+}
+
+TEST_CASE("group: shapes of one name are told apart by their files") {
+  const Eggs eggs;
+  fs::create_directory(eggs.folder / "day2");
+  const std::string second = eggs.folder / "day2/egg0.obj";
+  fs::copy(eggs.paths[1], second);
+  const Ended ended = sphparam_program(
+      {"group", eggs.paths[0], second, "--hold", "--grid", "ico:2", "--size", "0", "-o", eggs.out});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  const auto rows = lines_of(bytes_of(eggs.in_out("shapes.tsv")));
+  CHECK(cells_of(rows[1]).front() == "egg0");
+  CHECK(cells_of(rows[1]).back() == eggs.paths[0]);
+  CHECK(cells_of(rows[2]).front() == "egg0_2");
+  CHECK(cells_of(rows[2]).back() == second);
 }
 
 TEST_CASE("group: the record says which shapes had no map, also where maps are moved") {

@@ -130,6 +130,47 @@ TEST_CASE("group: copies with maps of their own come into correspondence, and ha
   }
 }
 
+TEST_CASE("group: half turns that a symmetric template leaves open are the shapes' own, and told") {
+  TriangleMesh plain = grid_sphere(middle_grid);
+  plain.positions = plain.positions * Vector3(3, 2, 1.2).asDiagonal();
+  std::vector<MappedMesh> shapes = copies(bumpy(middle_grid));
+  const MappedMesh reference = mapped(plain, parameterize(plain).map);
+  const Group group =
+      make_group(shapes, reference,
+                 {.start = GroupStart::Ellipsoid, .hold = true, .grid = middle_grid, .threads = 2});
+  CHECK(group.distances.maxCoeff() < 0.01);  // of a length of 6
+  for (const GroupMember& member : group.members) {
+    CHECK(member.confidence < 0.01);
+    REQUIRE(member.warnings.size() == 1);
+    CHECK_THAT(member.warnings[0], Catch::StartsWith("the template hardly tells half turns apart"));
+  }
+  const Group told = make_group(shapes, shapes[0],
+                                {.start = GroupStart::Ellipsoid, .hold = true, .grid = small_grid});
+  CHECK(told.members[0].confidence == 1);
+  CHECK(told.members[1].confidence > 0.95);
+}
+
+TEST_CASE("group: a shape that fits in several positions is brought without confidence") {
+  TriangleMesh plain = grid_sphere(middle_grid);
+  plain.positions = plain.positions * Vector3(3, 2, 1.2).asDiagonal();
+  std::vector<MappedMesh> shapes = copies(bumpy(middle_grid));
+  shapes.push_back(mapped(plain, parameterize(plain).map));
+  for (const bool hold : {true, false}) {
+    const Group group = make_group(shapes, shapes[0],
+                                   {.start = GroupStart::Rotation,
+                                    .hold = hold,
+                                    .rounds = 0,
+                                    .grid = small_grid,
+                                    .threads = 2});
+    CHECK(group.members[0].confidence == 1);
+    CHECK(group.members[1].confidence > 0.98);
+    CHECK(group.members[3].confidence < 0.01);
+    REQUIRE_FALSE(group.members[3].warnings.empty());
+    CHECK_THAT(group.members[3].warnings[0],
+               Catch::Contains("in two positions") && Catch::EndsWith("by match, bring it right"));
+  }
+}
+
 TEST_CASE("group: a start or an energy that there is not is refused by its name") {
   const TriangleMesh mesh = icosphere(1);
   const MappedMesh ball = mapped(mesh, {mesh.positions});

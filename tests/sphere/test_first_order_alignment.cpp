@@ -140,6 +140,66 @@ TEST_CASE("first_order_alignment: flips of a template decide, whatever skewness 
   CHECK_THROWS_WITH(lying(c, &crooked), Catch::Contains("not aligned"));
 }
 
+TEST_CASE("first_order_alignment: where a template tells no half turns apart skewness decides") {
+  const auto diagonal = [] {
+    Functions result = Functions::Zero(36, 3);
+    result(harmonic_index(1, 1), 0) = -6;
+    result(harmonic_index(1, -1), 1) = -4;
+    result(harmonic_index(1, 0), 2) = 2.5;
+    return result;
+  };
+  const Functions plain = diagonal();  // all half turns leave it as it is
+  Functions nearly = plain;            // of all signs, and of no skewness that says so
+  nearly.row(harmonic_index(2, -1)) = Eigen::RowVector3d(-0.004, 0.003, -0.005);
+  nearly.row(harmonic_index(3, 2)) = Eigen::RowVector3d(0.004, -0.005, 0.003);
+  for (const unsigned seed : {1u, 2u, 4u, 5u}) {
+    CAPTURE(seed);
+    const Functions c = bumpy(seed), usual = lying(c);
+    REQUIRE(first_order_alignment(c).undecided == 0);
+    for (const Functions& flips : {plain, nearly}) {
+      const FirstOrderAlignment found = first_order_alignment(c, &flips);
+      CHECK((aligned(c, found, true) - usual).cwiseAbs().maxCoeff() < 1e-11);
+      CHECK(found.by_skewness);
+      CHECK(found.confidence >= 0);
+      CHECK(found.confidence < 0.02);
+      CHECK(found.undecided == 0);
+      CHECK_THAT(doubts_about(found).at(0), Catch::StartsWith("the template hardly tells") &&
+                                                Catch::Contains("skewness along the axes decides"));
+    }
+    const FirstOrderAlignment clear = first_order_alignment(c, &usual);
+    CHECK(clear.confidence == Approx(1).margin(1e-9));
+    CHECK_FALSE(clear.by_skewness);
+    CHECK(clear.undecided == 0);
+    CHECK(doubts_about(clear).empty());
+  }
+  // Neither decides: the nearest stays, and it is told how far others are.
+  const FirstOrderAlignment open = first_order_alignment(nearly, &plain);
+  CHECK_FALSE(open.by_skewness);
+  CHECK(open.confidence == Approx(0).margin(1e-9));
+  CHECK(open.undecided > 1e-3);
+  CHECK_THAT(doubts_about(open).at(0),
+             Catch::StartsWith("the template hardly tells") && Catch::Contains("of their size"));
+  // What no half turn changes needs none decided.
+  const FirstOrderAlignment same = first_order_alignment(plain, &nearly);
+  CHECK(same.confidence == 1);
+  CHECK(same.undecided == 0);
+}
+
+TEST_CASE("first_order_alignment: skewness decides as a template of clear skewness lies") {
+  const Functions c = bumpy(4), usual = lying(c);
+  const Matrix3 half = rotation(pi, Vector3(0, 1, 0));
+  // One that is far from all four, and lies against its own skewness.
+  Functions far = lying(bumpy(2));
+  far.bottomRows(far.rows() - 4) *= 40;
+  far = lying(far);
+  const Functions flips = turn_harmonics(far, half) * half.transpose();
+  const FirstOrderAlignment found = first_order_alignment(c, &flips);
+  REQUIRE(found.confidence < 0.1);
+  REQUIRE(found.by_skewness);
+  const Functions wanted = turn_harmonics(usual, half) * half.transpose();
+  CHECK((aligned(c, found, true) - wanted).cwiseAbs().maxCoeff() < 1e-11);
+}
+
 TEST_CASE("first_order_alignment: what is flat along an axis has no skewness there") {
   Functions flat = Functions::Zero(9, 3);
   flat(harmonic_index(1, 1), 0) = 3;

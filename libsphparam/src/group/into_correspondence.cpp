@@ -1,5 +1,6 @@
 #include "group/into_correspondence.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "correspondence/surface_area.h"
@@ -14,6 +15,9 @@ namespace {
 constexpr int degree = 12;  // of the harmonics that tell how a shape lies
 constexpr int tried_turns = 4;
 constexpr double clear_correlation = 0.3, clear_difference = 0.05;
+constexpr char what_to_do[] =
+    "look at its correspondence; where it is wrong, --start ends or ellipsoid, or landmarks by "
+    "match, bring it right";
 
 Functions harmonics_of(const MappedMesh& mapped, int threads) {
   return fit_harmonics(mapped.topology(), mapped.map(), mapped.mesh().positions,
@@ -27,6 +31,7 @@ Brought by_ellipsoid(const GroupTarget& target, const MappedMesh& shape, int thr
       first_order_alignment(harmonics_of(shape, threads), &target.aligned, threads);
   return {.mapped = turned_map(shape, target.sphere.transpose() * alignment.sphere),
           .start = "ellipsoid",
+          .confidence = alignment.confidence,
           .doubts = doubts_about(alignment)};
 }
 
@@ -43,24 +48,34 @@ bool is_symmetric(const Functions& signals, int threads) {
   return turns.size() > 1 && turns[1].correlation > 1 - clear_difference;
 }
 
+/// How much more alike the best position is than the next; 1 where a symmetry of the target makes
+/// others as right.
+double confidence_in(const std::vector<TurnOfFunctions>& turns, bool symmetric) {
+  if (turns.size() < 2 || symmetric) return 1;
+  const double unlike = 1 - turns[0].correlation, next = 1 - turns[1].correlation;
+  return next > 0 ? std::clamp(1 - unlike / next, 0.0, 1.0) : 0;
+}
+
 /// The shape's sphere lies as the target's does, by what the maps look like.
 Brought by_rotation(const GroupTarget& target, const MappedMesh& shape, bool alike, int threads) {
   const Functions signals = turning_signals(shape, alike, threads);
   const std::vector<TurnOfFunctions> turns =
       turns_by_correlation(signals, target.signals, tried_turns, threads);
-  Brought result{.mapped = turned_map(shape, turns.front().rotation), .start = "rotation"};
+  Brought result{.mapped = turned_map(shape, turns.front().rotation),
+                 .start = "rotation",
+                 .confidence = confidence_in(turns, target.symmetric)};
   if (turns.front().correlation < clear_correlation)
     result.doubts.push_back(
         "its map looks little like that of the template, however it is turned "
         "(correlation " +
-        short_number(turns.front().correlation) + "): look at its correspondence");
+        short_number(turns.front().correlation) + "): " + what_to_do);
   else if (turns.size() > 1 && !target.symmetric &&
            turns.front().correlation - turns[1].correlation < clear_difference)
     result.doubts.push_back(
         "its map looks like that of the template in two positions "
         "(correlations " +
         short_number(turns[0].correlation) + " and " + short_number(turns[1].correlation) +
-        "): look at its correspondence");
+        "): " + what_to_do);
   return result;
 }
 
@@ -108,6 +123,7 @@ Brought bring_to(const GroupTarget& target, const MappedMesh& shape, GroupStart 
   Brought result =
       from_match(match_surfaces(begun.mapped, target.mapped, options), std::move(begun.start));
   result.doubts = std::move(begun.doubts);
+  result.confidence = std::min(result.confidence, begun.confidence);
   return result;
 }
 

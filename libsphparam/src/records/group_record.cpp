@@ -191,16 +191,17 @@ std::string to_json(const GroupRecord& record) {
 std::string shapes_table(const GroupRecord& record) {
   std::vector<std::string> header{"shape", "start", "energy", "size", "distance_from_mean"};
   for (std::string& name : mode_names(record.group, "mode")) header.push_back(std::move(name));
-  header.push_back("repairs");
+  header.insert(header.end(), {"repairs", "file"});
   std::string text = row(header);
   for (size_t i = 0; i < record.names.size(); ++i) {
     const GroupMember& member = record.group.members[i];
-    std::vector<std::string> cells{record.names[i], member.start, shortest(member.energy),
-                                   shortest(member.size),
-                                   shortest(distance_from_mean(record.group, i))};
+    std::vector<std::string> cells{
+        record.names[i], member.start, member.energy > 0 ? shortest(member.energy) : "",
+        shortest(member.size), shortest(distance_from_mean(record.group, i))};
     for (Eigen::Index k = 0; k < record.group.modes.scores.cols(); ++k)
       cells.push_back(shortest(record.group.modes.scores(static_cast<Eigen::Index>(i), k)));
     cells.push_back(repairs_text(mended_of(record, i)));
+    cells.push_back(record.files[i]);
     text += row(cells);
   }
   return text;
@@ -306,7 +307,8 @@ std::vector<std::string> group_warnings(const GroupRecord& record) {
                        ": its map to the mean distorts far more than the others' "
                        "(energy " +
                        short_number(record.group.members[i].energy) +
-                       "): look at its correspondence");
+                       "): look at its correspondence; where it is wrong, landmarks by match bring "
+                       "it right");
   return warnings;
 }
 

@@ -66,7 +66,9 @@ Json alignment_json(const HarmonicExpansion& expansion) {
     json["centre"] = vector_json(alignment.centre);
   }
   json["skewness"] = vector_json(alignment.skewness);
+  json["half_turn_by"] = alignment.by_skewness ? "skewness" : "template";
   json["undecided"] = alignment.undecided;
+  json["confidence"] = alignment.confidence;
   json["reversed"] = alignment.reversed;
   return json;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -21,6 +22,7 @@ namespace {
 constexpr double clear_skewness = 0.01;
 constexpr double equal_axes = 0.01;    // of the longer one
 constexpr double equal_shapes = 1e-3;  // distance of coefficients, of their size
+constexpr double as_near = 0.1;        // the template tells half turns apart that are not so near
 constexpr double crooked_axes = 1e-3;  // cosine of the angle between axes of aligned coefficients
 constexpr int identity = 3;            // a half turn about axis 0, 1, 2, or none
 
@@ -68,6 +70,12 @@ double parity(int l, int m, int axis) {
   const int about_z = order, about_x = l + order + (m < 0 ? 1 : 0);
   const int odd = axis == 2 ? about_z : axis == 0 ? about_x : about_x + about_z;
   return odd % 2 == 0 ? 1 : -1;
+}
+
+/// One half turn after another.
+int composed(int a, int b) {
+  if (a == b) return identity;
+  return a == identity ? b : b == identity ? a : 3 - a - b;
 }
 
 /// The half turn of sphere and surface about an axis.
@@ -146,16 +154,94 @@ Functions normalised(const Functions& c) {
   return c * unit / mean_length(lengths);
 }
 
-int flip_by_template(const Functions& c, const Functions& flips) {
-  const Functions wanted = normalised(positions_of(flips));
+struct HalfTurn {
+  int axis = identity;
+  double undecided = 0, confidence = 1;
+  bool by_skewness = true;
+};
+
+/// That of the template which its own skewness would take; none where that is not clear.
+int own_half_turn(const Functions& wanted, int threads) {
+  const Vector3 skewness = skewness_of(wanted, threads);
+  const bool clear = std::abs(skewness[by_skewness(skewness)[1]]) >= clear_skewness;
+  return clear ? flip_by_skewness(skewness) : identity;
+}
+
+Functions scaled(const Functions& c) {
   const Vector3 lengths = first_order(c).colwise().norm();
   const double mean = mean_length(lengths);
-  const Functions scaled = c / (mean > 0 ? mean : std::max(lengths.maxCoeff(), 1e-300));
+  return c / (mean > 0 ? mean : std::max(lengths.maxCoeff(), 1e-300));
+}
+
+/// How far from the template each half turn is, none the last.
+std::array<double, 4> distances_after_half_turns(const Functions& c, const Functions& wanted) {
+  std::array<double, 4> away{};
+  const Functions lying = scaled(c);
+  for (int axis = 0; axis <= identity; ++axis)
+    away[size_t(axis)] = distance(flipped(lying, axis), wanted);
+  return away;
+}
+
+int nearest(const std::array<double, 4>& away) {
   int best = identity;
   for (int axis = 2; axis >= 0; --axis)
-    if (distance(flipped(scaled, axis), wanted) < distance(flipped(scaled, best), wanted))
-      best = axis;
+    if (away[size_t(axis)] < away[size_t(best)]) best = axis;
   return best;
+}
+
+/// The nearest to the template, and how much nearer it is than others that make a difference.
+HalfTurn nearest_half_turn(const Functions& c, const std::array<double, 4>& away) {
+  HalfTurn result{.axis = nearest(away), .by_skewness = false};
+  const double least = away[size_t(result.axis)], size = c.bottomRows(c.rows() - 1).norm();
+  double next = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis <= identity; ++axis) {
+    const double change = distance(c, flipped(c, composed(axis, result.axis))) / size;
+    if (!(change > equal_shapes)) continue;
+    next = std::min(next, away[size_t(axis)]);
+    if (least > (1 - as_near) * away[size_t(axis)])
+      result.undecided = std::max(result.undecided, change);
+  }
+  if (next > 0) result.confidence = 1 - least / next;
+  return result;
+}
+
+/// Nearest to the template; where others are as good as near, by skewness, so that surfaces which
+/// the template does not tell apart lie alike at least.
+HalfTurn half_turn_by_template(const Functions& c, const Vector3& skewness, const Functions& flips,
+                               int threads) {
+  const Functions wanted = normalised(positions_of(flips));
+  const std::array<double, 4> away = distances_after_half_turns(c, wanted);
+  HalfTurn result = nearest_half_turn(c, away);
+  if (result.undecided == 0) return result;
+  const double open = undecided_by_skewness(c, skewness);
+  const int own = composed(flip_by_skewness(skewness), own_half_turn(wanted, threads));
+  const bool is_near = away[size_t(result.axis)] > (1 - as_near) * away[size_t(own)];
+  if (open > equal_shapes || !is_near) return result;
+  return {own, open, result.confidence, true};
+}
+
+HalfTurn half_turn_by_skewness(const Functions& c, const Vector3& skewness) {
+  return {.axis = flip_by_skewness(skewness), .undecided = undecided_by_skewness(c, skewness)};
+}
+
+std::string skewness_text(const FirstOrderAlignment& alignment) {
+  const Vector3& skewness = alignment.skewness;
+  return short_number(skewness[0]) + ", " + short_number(skewness[1]) + ", " +
+         short_number(skewness[2]);
+}
+
+std::string open_signs(const FirstOrderAlignment& alignment) {
+  return "the signs of the axes are hardly decided: skewness along them is " +
+         skewness_text(alignment) + ", and coefficients of other signs are far from these (" +
+         percent(alignment.undecided) + " of their size)";
+}
+
+std::string doubt_of_template(const FirstOrderAlignment& alignment) {
+  const std::string told = "the template hardly tells half turns apart: the nearest is " +
+                           percent(alignment.confidence) + " nearer than another; ";
+  return told + (alignment.by_skewness
+                     ? "skewness along the axes decides: " + skewness_text(alignment)
+                     : open_signs(alignment));
 }
 
 }  // namespace
@@ -166,12 +252,15 @@ FirstOrderAlignment first_order_alignment(const Functions& coefficients, const F
   FirstOrderAlignment result = along_axes(positions);
   const Functions lying = aligned(positions, result, true, threads);
   const Vector3 skewness = skewness_of(lying, threads);
-  const int axis = flips ? flip_by_template(lying, *flips) : flip_by_skewness(skewness);
-  const Vector3 signs = half_turn(axis);
+  const HalfTurn taken = flips ? half_turn_by_template(lying, skewness, *flips, threads)
+                               : half_turn_by_skewness(lying, skewness);
+  const Vector3 signs = half_turn(taken.axis);
   result.sphere = signs.asDiagonal() * result.sphere;
   result.object = signs.asDiagonal() * result.object;
   result.skewness = signs.cwiseProduct(skewness);
-  if (!flips) result.undecided = undecided_by_skewness(lying, skewness);
+  result.undecided = taken.undecided;
+  result.confidence = taken.confidence;
+  result.by_skewness = taken.by_skewness;
   return result;
 }
 
@@ -194,13 +283,10 @@ std::vector<std::string> doubts_about(const FirstOrderAlignment& alignment) {
                      short_number(axes[2], 6) +
                      "): where the axes lie is hardly decided, and another such surface may have "
                      "them elsewhere");
-  if (alignment.undecided > equal_shapes)
-    doubts.push_back("the signs of the axes are hardly decided: skewness along them is " +
-                     short_number(alignment.skewness[0]) + ", " +
-                     short_number(alignment.skewness[1]) + ", " +
-                     short_number(alignment.skewness[2]) +
-                     ", and coefficients of other signs are far from these (" +
-                     percent(alignment.undecided) + " of their size)");
+  if (alignment.confidence < as_near)
+    doubts.push_back(doubt_of_template(alignment));
+  else if (alignment.undecided > equal_shapes)
+    doubts.push_back(open_signs(alignment));
   if (alignment.reversed)
     doubts.push_back(
         "the first-order ellipsoid is inside out: no turn of sphere and surface makes its three "

@@ -48,7 +48,11 @@ struct GroupMember {
   ProcrustesMotion motion;  // that brought them there
   std::string start;        // what its way began with: "rotation", "ellipsoid", "ends", "its map"
   double energy = 0;        // of the last minimisation, a unit of area (`Match::energy`); 0: none
-  double confidence = 1;    // in the ends that were paired (`Match::confidence`)
+  /// In where its way began: of ends `Match::confidence`; of rotations 1 − (1 − c) / (1 − d), with
+  /// c and d the correlations of the best position and the next; of ellipsoids as
+  /// `FirstOrderAlignment`. 0: another is as good; 1: there is none, or a symmetry makes it as
+  /// right.
+  double confidence = 1;
   /// How far its own vertices are from the resampled shape, in their own directions: the mesh's
   /// unit; RMS weighted by area.
   double resampling_rms = 0, resampling_max = 0;

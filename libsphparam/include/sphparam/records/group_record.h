@@ -45,8 +45,9 @@ std::string to_json(const GroupRecord& record);
 
 // Tables, with tabs between; numbers come back exactly.
 
-/// A row a shape: how it was brought, its size, its distance from the mean, scores of the modes,
-/// and what was mended of it, by kind and count, as a batch tells it.
+/// A row a shape: how it was brought (no energy where nothing was minimised), its size, its
+/// distance from the mean, scores of the modes, what was mended of it, by kind and count, as a
+/// batch tells it, and its file.
 std::string shapes_table(const GroupRecord& record);
 /// Distances of each two shapes.
 std::string distances_table(const GroupRecord& record);
