@@ -185,6 +185,15 @@ TEST_CASE("mesh_writer: OFF carries normals, colours and texture coordinates of 
     CHECK(values_of(back.find_vertex_property(name)) == values_of(file.find_vertex_property(name)));
 }
 
+TEST_CASE("mesh_writer: OFF has its counts in the second line, and comments last") {
+  MeshFile file = read(tetrahedron_off);
+  file.comments = {"first", "sphparam version 1"};
+  const std::string text = serialise_off(file);
+  CHECK_THAT(text, Catch::StartsWith("OFF\n4 4 0\n1 1 1\n"));
+  CHECK_THAT(text, Catch::EndsWith("\n3 1 2 3\n# first\n# sphparam version 1\n"));
+  CHECK(read(text).comments == file.comments);
+}
+
 TEST_CASE("mesh_writer: OFF has colours as bytes where all are, else as fractions") {
   const auto coloured = [](ScalarType type, double value, ScalarType of_blue) {
     MeshFile file = read(tetrahedron_obj);

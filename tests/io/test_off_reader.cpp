@@ -118,3 +118,10 @@ TEST_CASE("off_reader: data after the last face is noted") {
   CHECK(read(tetrahedron_off + "3 0 1 2\n").notes.size() == 1);
   CHECK(read(tetrahedron_off + "# the end\n\n").notes.empty());
 }
+
+TEST_CASE("off_reader: comments are kept in front of the counts and after the last face") {
+  const MeshFile file =
+      read(replaced(tetrahedron_off, "OFF\n", "# a\nOFF\n# b\n") + "# c\n\n# d\n");
+  CHECK(file.comments == std::vector<std::string>{"a", "b", "c", "d"});
+  CHECK(file.notes.empty());
+}

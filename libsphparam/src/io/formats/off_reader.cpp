@@ -71,13 +71,13 @@ class OffReader {
     read_header();
     read_vertices();
     read_faces();
-    if (scanner_.next_filled_line()) file_.notes.push_back("data after the last face ignored");
+    if (next_line_past_comments()) file_.notes.push_back("data after the last face ignored");
     return finish();
   }
 
  private:
   void read_header() {
-    if (!next_header_line()) scanner_.fail("the file holds no OFF keyword");
+    if (!next_line_past_comments()) scanner_.fail("the file holds no OFF keyword");
     file_.format = scanner_.word();
     const std::optional<Keyword> keyword = parse_keyword(file_.format);
     if (!keyword) scanner_.fail("expected the keyword OFF, found " + quoted(file_.format));
@@ -86,7 +86,7 @@ class OffReader {
     if (scanner_.peek_word() == "BINARY") scanner_.fail("binary OFF files are not supported");
     keyword_ = *keyword;
     scanner_.require_text();
-    if (scanner_.at_line_end() && !next_header_line())
+    if (scanner_.at_line_end() && !next_line_past_comments())
       scanner_.fail("the file ends before the counts of vertices and faces");
     vertex_count_ = read_count("vertices", options_.max_vertices);
     face_count_ = read_count("faces", options_.max_faces);
@@ -95,7 +95,8 @@ class OffReader {
     check_proportions();
   }
 
-  bool next_header_line() {
+  /// In front of the counts and after the last face, where comments are kept.
+  bool next_line_past_comments() {
     while (scanner_.next_line()) {
       if (!scanner_.at_line_end()) return true;
       if (scanner_.at_comment()) file_.comments.push_back(one_line(scanner_.comment()));

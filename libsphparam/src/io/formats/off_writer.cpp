@@ -7,7 +7,8 @@
 #include "io/attributes/appearance.h"
 #include "io/files/text_buffer.h"
 
-// One line a vertex, one a face.
+// One line a vertex, one a face. Comments come last: readers of few lines, as the MATLAB ones that
+// everybody copies, take the second line for the counts.
 
 namespace sphparam {
 namespace {
@@ -69,7 +70,6 @@ std::string serialise_off(const MeshFile& file) {
   TextBuffer text(expected_text_bytes(file));
   text << (texcoords.empty() ? "" : "ST") << (colours.empty() ? "" : "C")
        << (normals.empty() ? "" : "N") << "OFF\n";
-  put_comments(text, file);
   text << file.mesh.vertex_count() << ' ' << file.mesh.face_count() << " 0\n";
   for (Eigen::Index v = 0; v < file.mesh.vertex_count(); ++v) {
     for (int axis = 0; axis < 3; ++axis) text << (axis ? " " : "") << file.mesh.positions(v, axis);
@@ -84,6 +84,7 @@ std::string serialise_off(const MeshFile& file) {
     face_colours.put(text, f);
     text << '\n';
   }
+  put_comments(text, file);
   return text.take();
 }
 
