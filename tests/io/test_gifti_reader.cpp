@@ -156,6 +156,30 @@ TEST_CASE("gifti_reader: a label table is kept as comments, and written to a PLY
   CHECK(contains(complaint(replaced(text, "\"0.1\"", "\"nan\"")), "expected a number"));
 }
 
+TEST_CASE("gifti_reader: coordinates of the scanner stay such, with a volume and without") {
+  const auto in_space = [](const std::string& from, const std::string& to,
+                           const std::string& matrix) {
+    Array array = points();
+    array.inside = "<CoordinateSystemTransformMatrix><DataSpace>" + from +
+                   "</DataSpace><TransformedSpace>" + to + "</TransformedSpace><MatrixData>" +
+                   matrix + "</MatrixData></CoordinateSystemTransformMatrix>";
+    return read(gifti({array, triangles()}));
+  };
+  const std::string none = "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1",
+                    moves = "1 0 0 5 0 1 0 0 0 0 1 0 0 0 0 1";
+  const std::string scanner = "NIFTI_XFORM_SCANNER_ANAT", unknown = "NIFTI_XFORM_UNKNOWN";
+  for (const MeshFile& file :
+       {in_space(scanner, scanner, none), in_space(unknown, scanner, none)}) {
+    CHECK(file.comments == std::vector<std::string>{"freesurfer real_ras 1"});
+    CHECK(file.notes.empty());
+    const MeshFile again = read(sphparam::serialise_gifti(file));
+    CHECK(again.comments.back() == "freesurfer real_ras 1");
+    CHECK(again.notes.empty());
+  }
+  CHECK(in_space(unknown, scanner, moves).comments.empty());
+  CHECK(in_space(unknown, unknown, none).notes.empty());
+}
+
 TEST_CASE("gifti_reader: blanks do not count as data that could unpack to something") {
   const auto said = [](const std::string& data, const std::string& encoding, int rows) {
     Array array = triangles(data);
@@ -180,16 +204,18 @@ TEST_CASE("gifti_reader: what the surface is comes as comments, a transform not 
       "</MatrixData></CoordinateSystemTransformMatrix>";
   const MeshFile file = read(gifti({array, triangles()}));
   CHECK(file.comments == std::vector<std::string>{"gifti AnatomicalStructurePrimary CortexLeft"});
-  CHECK(file.notes.empty());  // the identity
+  const std::vector<std::string> space = {
+      "not carried: that coordinates are in the space 'NIFTI_XFORM_TALAIRACH'"};
+  CHECK(file.notes == space);  // the identity
   // What has the name of a part of it elsewhere is none of it.
   const std::string elsewhere = "<MatrixData>5</MatrixData>";
   Array beside = array;
   beside.inside += "<Other>" + elsewhere + "</Other>";
-  CHECK(read(gifti({beside, triangles()})).notes.empty());
+  CHECK(read(gifti({beside, triangles()})).notes == space);
   CHECK(read(replaced(gifti({triangles(), array}), "</GIFTI>",
                       "<CoordinateSystemTransformMatrix>" + elsewhere +
                           "</CoordinateSystemTransformMatrix></GIFTI>"))
-            .notes.empty());
+            .notes == space);
   Array signed_by = points();
   signed_by.inside = "<MetaData><MD><Name>UserName</Name><Value>me</Value></MD></MetaData>";
   CHECK(read(gifti({signed_by, triangles()})).notes ==

@@ -82,7 +82,7 @@ std::string write_obj(const MeshFile& file, const WriteOptions& options) {
 /// it is made of.
 std::string write_gifti(const MeshFile& file, const WriteOptions& options,
                         const std::string& path) {
-  GiftiOptions told{.float32 = options.float32};
+  GiftiOptions told;
   const auto is_said = [&](std::string_view key) {
     return std::ranges::any_of(file.comments, [&](const std::string& comment) {
       return comment.starts_with("gifti " + std::string(key) + " ");

@@ -30,6 +30,7 @@ constexpr std::array<std::string_view, 4> kept = {"AnatomicalStructurePrimary",
                                                   "TopologicalType"};
 constexpr std::string_view pointset = "NIFTI_INTENT_POINTSET";
 constexpr std::string_view triangle = "NIFTI_INTENT_TRIANGLE";
+constexpr std::string_view scanner = "NIFTI_XFORM_SCANNER_ANAT";
 
 class GiftiReader {
  public:
@@ -174,16 +175,32 @@ class GiftiReader {
                                   ": coordinates stay as they are");
   }
 
-  /// Where all of it is there; else its keys are told with all others.
+  /// The volume where all of it is there; else its keys are told with all others.
   void add_geometry(const GiftiArray& points) {
     const std::vector<std::string> geometry = freesurfer_geometry_of(points.metadata);
     has_geometry_ = !geometry.empty();
-    if (!has_geometry_) return;
-    const bool is_scanner = std::ranges::any_of(points.coordinate_systems, [](const auto& system) {
-      return system.data_space == "NIFTI_XFORM_SCANNER_ANAT";
-    });
-    file_.comments.push_back(std::string(freesurfer_real_ras) + (is_scanner ? "1" : "0"));
+    const bool is_scanner = are_in(scanner, points);
+    if (has_geometry_ || is_scanner)
+      file_.comments.push_back(std::string(freesurfer_real_ras) + (is_scanner ? "1" : "0"));
     file_.comments.insert(file_.comments.end(), geometry.begin(), geometry.end());
+    if (!is_scanner) tell_space(points);
+  }
+
+  /// Whether coordinates are in this space, as they are.
+  static bool are_in(std::string_view space, const GiftiArray& points) {
+    return std::ranges::any_of(points.coordinate_systems, [&](const auto& system) {
+      return system.data_space == space ||
+             (system.transformed_space == space && is_identity(system.matrix));
+    });
+  }
+
+  /// One that has a name, and no place in other formats.
+  void tell_space(const GiftiArray& points) {
+    for (const auto& [from, to, matrix] : points.coordinate_systems) {
+      const bool is_named = !from.empty() && from != "NIFTI_XFORM_UNKNOWN";
+      if (!is_named || !is_identity(matrix)) continue;  // which a transform's loss names
+      return add_loss(file_.notes, "that coordinates are in the space " + quoted(from));
+    }
   }
 
   void note_metadata() {

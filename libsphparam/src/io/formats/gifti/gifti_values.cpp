@@ -186,8 +186,7 @@ VertexData read_gifti_values(std::string_view bytes, const std::string& name,
 std::string serialise_gifti_values(const VertexData& data) {
   const GiftiTurn turn;
   const GiftiImage image = make_gifti_image(static_cast<int>(data.columns.size()));
-  for (std::size_t k = 0; k < data.columns.size(); ++k)
-    fill_column(*image->darray[k], data, k);
+  for (std::size_t k = 0; k < data.columns.size(); ++k) fill_column(*image->darray[k], data, k);
   add_gifti_metadata(image->meta, std::string(structure_key), data.structure);
   for (const auto& [key, value] : data.metadata) add_gifti_metadata(image->meta, key, value);
   if (data.kind == DataKind::Labels) add_gifti_labels(*image, table_of(data));

@@ -51,28 +51,29 @@ void add_space(giiDataArray& points, const char* name) {
     for (int k = 0; k < 4; ++k) system.xform[i][k] = i == k ? 1 : 0;
 }
 
-/// The space of a sphere is its own: the identity, which the field's files have too. Surfaces of
-/// FreeSurfer say which volume they are of, and whether they are in the space of the scanner.
+/// The space of a sphere is its own: the identity, which the field's files have too. Surfaces
+/// say which volume they are of, and whether they are in the space of the scanner.
 void add_spaces(giiDataArray& points, const MeshFile& file, bool is_sphere) {
   if (is_sphere) return add_space(points, "NIFTI_XFORM_UNKNOWN");
   const Metadata geometry = gifti_geometry(file.comments);
   for (const auto& [key, value] : geometry) add_gifti_metadata(points.meta, key, value);
   const bool is_scanner = std::ranges::find(file.comments, std::string(freesurfer_real_ras) +
                                                                "1") != file.comments.end();
-  if (!geometry.empty() && is_scanner) add_space(points, "NIFTI_XFORM_SCANNER_ANAT");
+  if (is_scanner) add_space(points, "NIFTI_XFORM_SCANNER_ANAT");
+}
+
+/// Numbers that float32 holds as they are need no room for their rounding.
+void require_rounded(const Points& positions) {
+  const ScalarType held = lossless_type(ScalarType::Float32, positions.data(), positions.size());
+  if (held != ScalarType::Float32) require_float32(positions, "GIFTI");
 }
 
 GiftiImage build_image(const MeshFile& file, const GiftiOptions& options) {
   GiftiImage image = make_gifti_image(2);
   const Points& positions = file.mesh.positions;
   giiDataArray& points = *image->darray[0];
-  const bool is_float32 =
-      lossless_type(ScalarType::Float32, positions.data(), positions.size()) == ScalarType::Float32;
-  if (options.float32 && !is_float32) require_float32(positions, "GIFTI");
-  if (options.float32 || is_float32)
-    fill_gifti<float>(points, NIFTI_INTENT_POINTSET, NIFTI_TYPE_FLOAT32, numbers_of(positions), 3);
-  else
-    fill_gifti<double>(points, NIFTI_INTENT_POINTSET, NIFTI_TYPE_FLOAT64, numbers_of(positions), 3);
+  require_rounded(positions);
+  fill_gifti<float>(points, NIFTI_INTENT_POINTSET, NIFTI_TYPE_FLOAT32, numbers_of(positions), 3);
   fill_gifti<int>(*image->darray[1], NIFTI_INTENT_TRIANGLE, NIFTI_TYPE_INT32,
                   numbers_of(file.mesh.triangles), 3);
 

@@ -11,18 +11,17 @@ struct GiftiOptions {
   std::string geometric_type = {};        // "Anatomical"; "Spherical": in no space but its own
   std::string anatomical_structure = {};  // "CortexLeft", …; "Other" where nobody says
   std::string secondary_structure = {};   // "GrayWhite", "Pial", "MidThickness"
-  bool float32 = false;                   // coordinates are rounded to 32 bits
 };
 
 /// A GIFTI surface: coordinates, triangles as INT32, comments of our own as metadata, those of
 /// labels (gifti_labels.h) as the label table.
 ///
-/// No bit is lost: coordinates are FLOAT32, which neuroimaging tools expect, where every one of
-/// them is a float32 number, else FLOAT64. A map goes through `round_to_float` first, whose
+/// Coordinates are rounded to FLOAT32: the Connectome Workbench opens no file of others. A map goes
+/// through `round_to_float` first, whose
 /// certificate then holds for the file. Properties have no place in it.
-/// Throws: WriteError when libgiftiio fails, or where coordinates that are to be rounded are beyond
-/// the range of float32; UnmeasurableMesh where all of these are too near. Safe to call from
-/// several threads.
+/// Throws: WriteError when libgiftiio fails, or where coordinates are beyond the range of
+/// float32; UnmeasurableMesh where all of those that it does not hold are too near. Safe to call
+/// from several threads.
 std::string serialise_gifti(const MeshFile& file, const GiftiOptions& options = {});
 
 }  // namespace sphparam
