@@ -47,4 +47,12 @@ TEST_CASE("written map: a file of another connectivity is refused, by the name o
   CHECK_THROWS_WITH(read_map_of(mesh, folder.file("b.ply")), Contains("not a sphere of a.ply"));
   CHECK_THROWS_WITH(read_map_of(mesh, folder.file("b.ply"), {}, "map"),
                     Contains("not a map of a.ply"));
+  const std::string advice = "which `sphparam repair` with the same options writes";
+  CHECK_THROWS_WITH(read_map_of(mesh, folder.file("b.ply")), !Contains(advice));
+  const MeshFile file = file_of(icosphere(2));
+  const MeshFile own = sphere_mesh(file, {file.mesh.positions}, {{"method", "progressive"}});
+  for (const char* name : {"own.surf.gii", "lh.sphere"}) {
+    write_mesh(folder.file(name), own, {.is_sphere = true});
+    CHECK_THROWS_WITH(read_map_of(mesh, folder.file(name)), Contains(advice));
+  }
 }

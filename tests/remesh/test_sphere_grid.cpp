@@ -218,6 +218,10 @@ TEST_CASE("grids: a file's vertices about the origin are directions of any lengt
   const SphereGrid grid = load_grid(path);
   CHECK(grid.directions.rowwise().norm() == VectorX::Ones(6));
   CHECK(grid.faces.count() == 8);
+  CHECK(grid.warning == std::filesystem::path(path).filename().string() +
+                            ": these points are not on a sphere about the origin: their radius is "
+                            "1.75 in the mean, and up to 99.9 % more or less; their directions are "
+                            "judged");
   write("-0.1");
   CHECK_THROWS_AS(load_grid(path), NotCertifiedError);
   std::filesystem::remove(path);

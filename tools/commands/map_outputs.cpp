@@ -8,6 +8,7 @@
 
 #include "arguments/part_files.h"
 #include "console/places.h"
+#include "io/shell_word.h"
 #include "number_text.h"
 #include "report/plots.h"
 #include "reports/told_losses.h"
@@ -17,6 +18,7 @@
 #include "sphparam/io/losses.h"
 #include "sphparam/io/map_files.h"
 #include "sphparam/io/sphere_file.h"
+#include "sphparam/names.h"
 #include "sphparam/records/map_record.h"
 
 namespace sphparam::cli {
@@ -86,6 +88,16 @@ void add_sphere(const std::string& path, const MapArguments& arguments, const Ma
   if (least_area == 0) return;
   session.console.say("  " + path + ": mapped anew for numbers of 32 bits: triangles under " +
                       short_number(least_area) + " of the mean area count as that large");
+}
+
+/// A sphere of other vertices than the file's fits none that is there, but that of -o.
+void tell_whose_sphere(const MapArguments& arguments, const MapOutcome& outcome, Session& session) {
+  if (outcome.source.repairs.empty() || !arguments.output.empty()) return;
+  const RepairOptions repairs = wanted_repairs(arguments.repair).value_or(RepairOptions::none());
+  session.console.say("  " + output_name(arguments.sphere) +
+                      ": is of the mended mesh, which no file holds: `sphparam repair " +
+                      shell_file(arguments.input) + " " + sphparam::options_line(repairs) +
+                      " -o MENDED` writes it");
 }
 
 void add_plots(const std::string& folder, const std::string& name, const Distortion& distortion,
@@ -180,6 +192,7 @@ std::string add_outputs(const MapArguments& arguments, MapOutcome& outcome, bool
   }
   if (with_map && !arguments.sphere.empty()) {
     add_sphere(arguments.sphere, arguments, outcome, session);
+    if (!arguments.all_components) tell_whose_sphere(arguments, outcome, session);
     outputs.emplace_back("sphere", arguments.sphere);
   }
   if (!arguments.repair.loops.empty()) {

@@ -83,7 +83,9 @@ MappedMesh map_source(MeshSource source, const std::string& sphere, Session& ses
   options.map.filler_share = wanted_filler_share(repair);
   options.map.threads = session.threads();
   options.map.progress = session.progress();
+  const auto known = std::ssize(source.notes);
   const MappedMesh mapped = mapped_mesh(std::move(source), options);
+  session.warn({mapped.notes().begin() + known, mapped.notes().end()});  // of the sphere
   if (mapped.mapped_here())
     session.console.say(mapped.name() + ": carries no map; mapped now (progressive)");
   return mapped;

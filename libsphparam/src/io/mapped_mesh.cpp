@@ -17,6 +17,7 @@
 #include "sphparam/io/paths.h"
 #include "sphparam/io/planetocentric.h"
 #include "sphparam/io/safe_file.h"
+#include "sphparam/io/verify_map.h"
 #include "sphparam/io/written_map.h"
 #include "sphparam/names.h"
 
@@ -57,6 +58,12 @@ std::optional<WrittenMap> written_map(const MeshSource& source, const LoadOption
   std::optional<SphereMap> map = read_sphere(source.file);
   if (!map) return std::nullopt;
   return WrittenMap{{}, std::move(*map), read_provenance(source.file)};
+}
+
+void note_roundness(const std::string& sphere, const SphereMap& rays,
+                    std::vector<std::string>& notes) {
+  const std::string warning = roundness_warning(rays);
+  if (!warning.empty()) notes.push_back(display_name(sphere) + ": " + warning);
 }
 
 WrittenMap made_map(const MeshSource& source, ParameterizeOptions options) {
@@ -167,6 +174,7 @@ MappedMesh mapped_mesh(MeshSource source, const LoadOptions& options) {
   require_mappable(source);
   std::optional<WrittenMap> written = written_map(source, options);
   const bool mapped_here = !written;
+  if (!options.sphere.empty()) note_roundness(options.sphere, written->map, source.notes);
   if (!written) written = made_map(source, options.map);
   const std::string& named = options.sphere.empty() ? source.path : options.sphere;
   return MappedMesh({.file = std::move(source.file),

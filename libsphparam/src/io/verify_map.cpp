@@ -218,4 +218,24 @@ VerifiedMap verify_map(const std::string& path, const VerifyOptions& options) {
   return verified;
 }
 
+std::string roundness_warning(const VerifiedMap& map) {
+  if (map.is_round()) return "";
+  const bool is_gltf = !map.of_two_files && map.format.starts_with("glTF");
+  return "these points are not on a sphere about the origin: their radius is " +
+         short_number(map.mean_length) + " in the mean, and up to " +
+         percent(map.length_deviation) + " more or less; their directions are judged" +
+         (is_gltf ? "; `sphparam export --theta-phi` writes the map into glTF, as the attribute "
+                    "_THETA_PHI"
+                  : "");
+}
+
+std::string roundness_warning(const SphereMap& rays) {
+  const Radius radius = measure_radius(rays.points);
+  VerifiedMap map;
+  map.of_two_files = true;  // a sphere beside its mesh
+  map.mean_length = radius.mean;
+  map.length_deviation = radius.deviation;
+  return roundness_warning(map);
+}
+
 }  // namespace sphparam

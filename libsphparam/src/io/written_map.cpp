@@ -1,5 +1,7 @@
 #include "sphparam/io/written_map.h"
 
+#include <algorithm>
+#include <string_view>
 #include <utility>
 
 #include "sphparam/io/connectivity.h"
@@ -8,9 +10,18 @@
 namespace sphparam {
 namespace {
 
+/// Whether this program wrote the bare sphere, which `map --repair` does of the mended mesh.
+bool is_own_sphere(const MeshFile& file) {
+  constexpr std::string_view created = "freesurfer created by sphparam";
+  return !read_provenance(file).empty() || std::ranges::count(file.comments, created) > 0;
+}
+
 /// An asset's mesh is not the one that was mapped: it has vertices more, along seams.
 std::string advice_on(const MeshSource& mesh, const MeshSource& map) {
-  if (!read_sphere(map.file)) return "";
+  if (!read_sphere(map.file))
+    return is_own_sphere(map.file) ? "; where `map` mended the mesh, the sphere is of that, which "
+                                     "`sphparam repair` with the same options writes"
+                                   : "";
   const bool asset = mesh.file.format.starts_with("glTF") &&
                      mesh.file.mesh.vertex_count() > map.file.mesh.vertex_count();
   return std::string(asset ? "; glTF repeats vertices along seams" : "") +

@@ -5,7 +5,6 @@
 
 #include "number_text.h"
 #include "records/json_parts.h"
-#include "sphere/radius.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/version.h"
 #include "sphparam/words.h"
@@ -67,26 +66,6 @@ std::vector<std::string> warnings_of(const VerifiedMap& map) {
   if (!map.is_round()) warnings.push_back(roundness_warning(map));
   warnings.insert(warnings.end(), map.warnings.begin(), map.warnings.end());
   return warnings;
-}
-
-std::string roundness_warning(const VerifiedMap& map) {
-  if (map.is_round()) return "";
-  const bool is_gltf = !map.of_two_files && map.format.starts_with("glTF");
-  return "these points are not on a sphere about the origin: their radius is " +
-         short_number(map.mean_length) + " in the mean, and up to " +
-         percent(map.length_deviation) + " more or less; their directions are judged" +
-         (is_gltf ? "; `sphparam export --theta-phi` writes the map into glTF, as the attribute "
-                    "_THETA_PHI"
-                  : "");
-}
-
-std::string roundness_warning(const SphereMap& rays) {
-  const Radius radius = measure_radius(rays.points);
-  VerifiedMap map;
-  map.of_two_files = true;  // a sphere beside its mesh
-  map.mean_length = radius.mean;
-  map.length_deviation = radius.deviation;
-  return roundness_warning(map);
 }
 
 std::string to_json(const VerificationRecord& record) {

@@ -75,4 +75,9 @@ Certificate certify_either_way(TriangleMesh& mesh, SphereMap& map, int threads =
 /// Cost: reading, and the certificate's.
 VerifiedMap verify_map(const std::string& path, const VerifyOptions& options = {});
 
+/// Where the rays are no points of a sphere: what was judged instead, and the way out. Else empty.
+std::string roundness_warning(const VerifiedMap& map);
+/// The same of rays as a file has them. Requires: at least one.
+std::string roundness_warning(const SphereMap& rays);
+
 }  // namespace sphparam

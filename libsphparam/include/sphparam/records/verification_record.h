@@ -29,9 +29,4 @@ std::string to_text(const VerificationRecord& record);
 /// file says of it that the rays do not.
 std::vector<std::string> warnings_of(const VerifiedMap& map);
 
-/// Where the rays are no points of a sphere: what was judged instead, and the way out. Else empty.
-std::string roundness_warning(const VerifiedMap& map);
-/// The same of rays as a file has them. Requires: at least one.
-std::string roundness_warning(const SphereMap& rays);
-
 }  // namespace sphparam

@@ -72,6 +72,7 @@ struct SphereGrid {
 
   std::string name = {};              // for provenance and messages: "ico:7", "like:sphere.ply"
   std::optional<GridSpec> spec = {};  // of a family; nothing for another sphere's vertices
+  std::string warning = {};           // of a file whose points are on no sphere about the origin
 };
 
 struct GridOptions {

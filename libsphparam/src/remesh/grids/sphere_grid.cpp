@@ -14,6 +14,7 @@
 #include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/mesh_source.h"
 #include "sphparam/io/paths.h"
+#include "sphparam/io/verify_map.h"
 #include "sphparam/sphere/certificate.h"
 
 namespace sphparam {
@@ -140,6 +141,7 @@ SphereGrid load_grid(const std::string& path, const ReadOptions& read, int threa
   const TriangleMesh& mesh = source.file.mesh;
   SphereMap map = read_sphere(source.file).value_or(SphereMap{mesh.positions});
   const Topology& topology = source.topology.value();
+  const std::string warning = roundness_warning(map);
   Certificate certificate = certify(topology, map, threads);
   if (certificate.bijective()) {
     map = unit_rays(std::move(map));
@@ -153,7 +155,8 @@ SphereGrid load_grid(const std::string& path, const ReadOptions& read, int threa
           .faces = triangles_as_polygons(mesh.triangles),
           .level_vertices = {},
           .parents = {},
-          .name = display_name(path)};
+          .name = display_name(path),
+          .warning = warning.empty() ? "" : display_name(path) + ": " + warning};
 }
 
 }  // namespace sphparam
