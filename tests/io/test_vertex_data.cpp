@@ -167,6 +167,23 @@ TEST_CASE("vertex_data: colours that the table of an annotation lacks are told")
   CHECK(contains(values_complaint(annotation().substr(0, 28), "lh.a.annot"), "no colour table"));
 }
 
+TEST_CASE(
+    "vertex_data: labels of one colour, which the vertices of an annotation cannot be of, are "
+    "told") {
+  const std::string blue_too = text("azure") + int32(0) + int32(0) + int32(255) + int32(0);
+  const auto with = [&](const std::string& label) {
+    return replaced(annotation() + int32(3) + label, int32(2) + int32(0) + text("frontal"),
+                    int32(3) + int32(0) + text("frontal"));
+  };
+  const VertexData data = read_values(with(blue_too), "lh.a.annot");
+  CHECK(data.notes == std::vector<std::string>{
+                          "not carried: vertices of 'azure': 1 of 3 vertices have one colour with "
+                          "'blue', and are taken for it"});
+  CHECK(data.labels.size() == 4);
+  const std::string twice_black = text("a") + int32(9) + int32(9) + int32(9) + int32(0);
+  CHECK(read_values(with(twice_black), "lh.a.annot").notes.empty());
+}
+
 TEST_CASE("vertex_data: a key 0 that the table of an annotation lacks is that of no label") {
   const std::string frontal = text("frontal");
   const VertexData data =
@@ -478,6 +495,9 @@ TEST_CASE("vertex_data: what other formats have no place for is told in a line e
   curvature.columns[0].intent = "NIFTI_INTENT_ZSCORE";
   CHECK(add_vertex_data(files, folder.file("lh.curv"), curvature) ==
         std::vector<std::string>{"not carried: the intent of 1 column (NIFTI_INTENT_ZSCORE)"});
+  // Colours of eight bits come back from six digits.
+  const VertexData parcels = read_values(annotation(), "lh.a.annot");
+  CHECK(add_vertex_data(files, folder.file("lh.a.label.gii"), parcels).empty());
   VertexData one = lobes();
   one.columns[0].values = {0, 2, 0, 2};
   CHECK(add_vertex_data(files, folder.file("parietal.label"), one) ==

@@ -53,6 +53,10 @@ std::vector<std::string> pieces(const std::string& text, char between) {
 /// BIDS has no underscores within a value.
 std::string hcp_space(const std::string& space) { return space == "fsLR" ? "fs_LR" : space; }
 
+struct BrainSession {
+  std::string subject, session;
+};
+
 std::string alphanumeric(std::string text) {
   std::erase_if(text, [](unsigned char c) { return std::isalnum(c) == 0; });
   return text;
@@ -68,18 +72,20 @@ bool is_freesurfer(const std::string& stem) {
 
 BrainName parse_bids(const std::string& stem) {
   BrainName name;
-  std::string description;
+  std::string description, session;
   for (const std::string& piece : pieces(stem, '_')) {
     const std::size_t dash = piece.find('-');
     const std::string key = piece.substr(0, dash);
     const std::string value = dash == std::string::npos ? "" : piece.substr(dash + 1);
     if (dash == std::string::npos) name.what = piece;
     if (key == "sub") name.subject = value;
+    if (key == "ses") session = value;
     if (key == "hemi" && !value.empty()) name.hemisphere = value.front();
     if (key == "space" || (key == "tpl" && name.space.empty())) name.space = hcp_space(value);
     if (key == "den") name.density = value;
     if (key == "desc") description = value;
   }
+  if (!session.empty()) name.subject = "sub-" + name.subject + "_ses-" + session;
   const bool says_little = name.what == "dseg" || name.what == "probseg" || name.what.empty();
   if (says_little && !description.empty()) name.what = description;
   return name;
@@ -130,12 +136,23 @@ std::string hcp_stem(const BrainName& name) {
   return stem + (name.space.empty() ? "" : "." + name.space);
 }
 
+/// Folders of FreeSurfer subjects may be named so: "sub-07", "sub-07_ses-1".
+BrainSession session_of(std::string subject) {
+  constexpr std::string_view sub = "sub-", ses = "_ses-";
+  if (!subject.starts_with(sub)) return {std::move(subject), ""};
+  subject.erase(0, sub.size());
+  const std::size_t at = subject.find(ses);
+  if (at == std::string::npos) return {std::move(subject), ""};
+  return {subject.substr(0, at), subject.substr(at + ses.size())};
+}
+
 std::string bids_stem(const BrainName& name, const std::string& suffix) {
   const auto entity = [](const char* key, const std::string& value) {
     const std::string text = alphanumeric(value);
     return text.empty() ? "" : std::string(key) + "-" + text + "_";
   };
-  return entity("sub", name.subject) +
+  const auto [subject, session] = session_of(name.subject);
+  return entity("sub", subject) + entity("ses", session) +
          entity("hemi", std::string(name.hemisphere != 0, name.hemisphere)) +
          entity("space", name.space) + entity("den", name.density) + suffix;
 }

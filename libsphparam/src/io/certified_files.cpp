@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 #include <utility>
 
 #include "io/files/file_bytes.h"
@@ -75,12 +76,25 @@ void require_free(const std::string& beside, const std::string& mesh, const Vert
                                "holds data itself");
 }
 
+/// A measure and a time series of one name lie in one file of FreeSurfer's: the second is renamed.
+std::string path_of_its_own(const std::string& mesh, VertexData& data,
+                            std::set<std::string>& taken) {
+  const std::string name = data.name;
+  std::string beside = data_path(mesh, data);
+  for (int number = 2; !taken.insert(beside).second; ++number) {
+    data.name = name + "_" + std::to_string(number);
+    beside = data_path(mesh, data);
+  }
+  return beside;
+}
+
 /// The mesh, without the data that lies beside it where its format has it so; `told` says where.
 MeshFile with_data_beside(PendingFiles& files, const std::string& path, MeshFile file,
                           std::vector<std::string>& told) {
   if (!has_data_beside(path)) return file;
+  std::set<std::string> taken;
   for (VertexData& data : attached_data(file)) {
-    const std::string beside = data_path(path, data);
+    const std::string beside = path_of_its_own(path, data, taken);
     data.triangles = file.mesh.face_count();
     require_free(beside, path, data, file.mesh.positions);
     told.push_back(data.name + " beside it: " + output_name(beside));

@@ -106,12 +106,21 @@ std::string name_of_data(const std::string& path) {
 
 bool is_same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
+/// GIFTI is written with six digits, which all colours of eight bits come back from.
+bool is_same_colour(const Label& a, const Label& b) {
+  constexpr float last_digit = 1e-6F;
+  if (!a.colour || !b.colour) return a.colour == b.colour;
+  return std::ranges::equal(*a.colour, *b.colour, [](float one, float other) {
+    return std::abs(one - other) <= last_digit;
+  });
+}
+
 /// Labels that are not what they were; those of no label may have any key that is not positive.
 std::int64_t changed_labels(const VertexData& written, const VertexData& read) {
   return std::ranges::count_if(written.labels, [&](const Label& label) {
     const bool is_none = label.key <= 0 && label.name == "???";
     return !is_none && std::ranges::none_of(read.labels, [&](const Label& other) {
-      return other.key == label.key && other.name == label.name && other.colour == label.colour;
+      return other.key == label.key && other.name == label.name && is_same_colour(other, label);
     });
   });
 }

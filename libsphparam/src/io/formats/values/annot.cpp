@@ -105,9 +105,8 @@ class AnnotReader {
     label.colour.emplace();
     for (std::size_t k = 0; k < 4; ++k)
       (*label.colour)[k] = static_cast<float>(channels[k]) / 255.0F;
-    if (!by_colour_.insert({colour_number(channels[0], channels[1], channels[2]), key}).second)
-      data_.notes.push_back("label '" + label.name +
-                            "' has the colour of another one, which vertices of it are taken for");
+    const std::int32_t colour = colour_number(channels[0], channels[1], channels[2]);
+    if (!by_colour_.insert({colour, key}).second) others_[colour].push_back(quoted(label.name));
     data_.labels.push_back(std::move(label));
   }
 
@@ -124,6 +123,7 @@ class AnnotReader {
       any_unlabelled |= found == by_colour_.end();
       unknown += found == by_colour_.end() && colour != 0;
     }
+    tell_shared_colours();
     if (any_unlabelled)
       data_.labels.insert(data_.labels.begin(),
                           Label{unlabelled, {{0, 0, 0, 0}}, std::string(no_label)});
@@ -133,12 +133,28 @@ class AnnotReader {
                                 ": the colour table has no such colours");
   }
 
+  /// Vertices of several labels have those of the first.
+  void tell_shared_colours() {
+    const auto name_of = [&](int key) {
+      return quoted(std::ranges::find(data_.labels, key, &Label::key)->name);
+    };
+    for (const auto& [colour, others] : others_) {
+      const long count = std::ranges::count(colours_, colour);
+      if (count == 0) continue;  // they are told apart where nothing has them
+      add_loss(data_.notes, "vertices of " + enumerated(others) + ": " + std::to_string(count) +
+                                " of " + counted(std::ssize(colours_), "vertex", "vertices") +
+                                " have one colour with " + name_of(by_colour_.at(colour)) +
+                                ", and are taken for it");
+    }
+  }
+
   ByteReader reader_;
   const ReadOptions& options_;
   VertexData data_;
-  std::vector<std::int32_t> colours_;      // by vertex
-  std::map<std::int32_t, int> by_colour_;  // the first label of each
-  std::set<std::int32_t> keys_;            // that there are
+  std::vector<std::int32_t> colours_;                        // by vertex
+  std::map<std::int32_t, int> by_colour_;                    // the first label of each
+  std::map<std::int32_t, std::vector<std::string>> others_;  // of that colour too
+  std::set<std::int32_t> keys_;                              // that there are
 };
 
 void append_int(std::string& bytes, std::int64_t value) {
