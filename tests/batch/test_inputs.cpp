@@ -65,11 +65,24 @@ TEST_CASE(
   TreeOfFiles tree({"s1/surf/lh.white", "s1/surf/lh.pial", "s2/surf/lh.white", "s3/surf/rh.white"});
   const auto inputs = find_batch_inputs({tree.root.string()}, {"pial"});
   CHECK(inputs.shapes.size() == 1);
-  REQUIRE(inputs.notes.size() == 1);
-  CHECK_THAT(inputs.notes.front(), Contains("2 subjects are left out (s2, s3) of 3"));
+  CHECK(inputs.notes ==
+        Ids{"2 subjects are left out (s2, s3) of 3, without the surface pial",
+            "1 subject of 3 without rh.pial, with the other hemisphere alone (s1)"});
   CHECK_THROWS_WITH(tree.ids("", "inflated"),
                     Contains("none of 3 subjects") && Contains("--surface"));
   CHECK(tree.ids("") == Ids{"s1_lh_white", "s2_lh_white", "s3_rh_white"});
+}
+
+TEST_CASE("inputs: subjects of one hemisphere are told, and folders that have no surface at all") {
+  TreeOfFiles tree({"s1/surf/lh.white", "s1/surf/rh.white", "s2/surf/lh.white", "s3/surf/rh.white",
+                    "s4/mri/orig.mgz", "s6/surf/notes.txt", "work/results/a/a.ply",
+                    "work/staging/x", "work/failed/y", "list.txt"});
+  fs::create_directories(tree.root / "s5/surf");
+  const auto inputs = find_batch_inputs({tree.root.string()});
+  CHECK(inputs.shapes.size() == 4);
+  CHECK(inputs.notes == Ids{"1 subject of 3 without lh.white, with the other hemisphere alone (s3)",
+                            "1 subject of 3 without rh.white, with the other hemisphere alone (s2)",
+                            "3 folders are left out (s4, s5, s6) as what has no surface in surf/"});
 }
 
 TEST_CASE("inputs: in a folder, what cannot be read and what batches made is left out and told") {

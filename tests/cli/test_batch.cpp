@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "program.h"
+#include "sphparam/io/vertex_data.h"
 #include "support/test_meshes.h"
 
 /// Batches as users run them.
@@ -129,6 +130,34 @@ TEST_CASE("batch: a mesh whose buffer or material library changes is another inp
 
   write_bytes(shapes.folder / "in/ball.mtl", "newmtl m\n");
   shapes.plan();
+  CHECK_THAT(shapes.batch("run").err, Contains("1 done, 0 failed, 1 done before"));
+}
+
+TEST_CASE("batch: data that the options name is part of the input, as the mesh is") {
+  const Shapes shapes(2);
+  const auto write_data = [&](const std::string& name, double value) {
+    VertexData data;
+    data.columns.push_back({"", ScalarType::Float32, std::vector<double>(162, value)});
+    write_vertex_data(shapes.folder / name, data);
+  };
+  write_data("a.shape.gii", 1);
+  write_data("b.shape.gii", 2);
+  write_bytes(shapes.folder / "t.tsv", "path\tsulc\nin/ball0.obj\t" +
+                                           (shapes.folder / "a.shape.gii") + "\nin/ball1.obj\t" +
+                                           (shapes.folder / "b.shape.gii") + "\n");
+  const auto plan = [&] {
+    return sphparam_program({"batch", "plan", shapes.folder / "t.tsv", "-o", shapes.work, "--chunk",
+                             "1", "--", "map", "--data", "{sulc}"})
+        .code;
+  };
+  REQUIRE(plan() == 0);
+  CHECK_THAT(shapes.batch("run").err, Contains("2 items: 2 done, 0 failed, 0 done before"));
+  CHECK_THAT(shapes.batch("run").err, Contains("0 done, 0 failed, 2 done before"));
+  write_data("b.shape.gii", 3);
+  CHECK_THAT(shapes.batch("run").err, Contains("0 done, 1 failed, 1 done before"));
+  CHECK_THAT(shapes.batch("status").out,
+             Contains("a file that the options name has changed since the plan"));
+  REQUIRE(plan() == 0);
   CHECK_THAT(shapes.batch("run").err, Contains("1 done, 0 failed, 1 done before"));
 }
 

@@ -188,46 +188,72 @@ class Finder {
 
   static std::string left_out(const std::vector<std::string>& names, const std::string& one,
                               const std::string& many) {
-    std::vector<std::string> told = names;
-    told.resize(std::min(names.size(), told_at_most));
     return counted(std::ssize(names), one, many) + (names.size() == 1 ? " is" : " are") +
-           " left out (" + joined(told) + (names.size() > told_at_most ? ", …" : "") + ")";
+           " left out (" + listed(names) + ")";
+  }
+
+  static std::string listed(std::vector<std::string> names) {
+    const bool has_more = names.size() > told_at_most;
+    names.resize(std::min(names.size(), told_at_most));
+    return joined(names) + (has_more ? ", …" : "");
   }
 
   /// Subjects in the order of their names, left before right. Are there any?
   bool freesurfer(const fs::path& place) {
-    std::size_t subjects = 0;
-    std::vector<std::string> without;
-    for (const fs::path& subject : sorted(place)) {
-      if (!is_folder(subject / "surf")) continue;
-      const std::size_t before = found_.size();
-      add_hemispheres(subject);
-      const bool has_any = found_.size() > before;
-      if (!has_any && !has_hemispheres(subject)) continue;
-      ++subjects;
-      if (!has_any) without.push_back(subject.filename().string());
-    }
-    if (subjects > 0 && without.size() == subjects)
+    Subjects subjects;
+    for (const fs::path& folder : sorted(place))
+      if (is_folder(folder) && !is_of_batch(folder / "results")) add_subject(folder, subjects);
+    if (subjects.count > 0 && subjects.without.size() == subjects.count)
       throw BatchInputError(place.string() + ": none of " +
-                            counted(static_cast<long>(subjects), "subject") + " has surf/lh." +
-                            options_.surface + " or surf/rh." + options_.surface +
+                            counted(static_cast<long>(subjects.count), "subject") +
+                            " has surf/lh." + options_.surface + " or surf/rh." + options_.surface +
                             "; see --surface");
-    if (!without.empty())
-      notes_.push_back(left_out(without, "subject", "subjects") + " of " +
-                       std::to_string(subjects) + ", without the surface " + options_.surface);
-    return subjects > 0;
+    if (subjects.count > 0) tell_missing(subjects);
+    return subjects.count > 0;
   }
 
-  void add_hemispheres(const fs::path& subject) {
-    for (const std::string side : {"lh", "rh"}) {
-      const std::string name = side + "." + options_.surface;
-      for (const std::string ending : {".surf.gii", ".gii", ""}) {
-        const fs::path file = subject / "surf" / (name + ending);
-        if (!is_file(file)) continue;
-        add(file, shape_id_of(subject.filename().string() + "_" + side + "_" + options_.surface));
-        break;
-      }
+  struct Subjects {
+    std::size_t count = 0;  // that have a surface of any kind
+    std::vector<std::string> without, without_left, without_right;  // the surface that is wanted
+    std::vector<std::string> others;                                // folders with none at all
+  };
+
+  void add_subject(const fs::path& folder, Subjects& subjects) {
+    const std::string name = folder.filename().string();
+    if (!has_hemispheres(folder)) return subjects.others.push_back(name);
+    ++subjects.count;
+    const bool left = add_hemisphere(folder, "lh"), right = add_hemisphere(folder, "rh");
+    if (!left && !right) return subjects.without.push_back(name);
+    if (!left) subjects.without_left.push_back(name);
+    if (!right) subjects.without_right.push_back(name);
+  }
+
+  void tell_missing(const Subjects& subjects) {
+    const std::string of_all = " of " + std::to_string(subjects.count);
+    if (!subjects.without.empty())
+      notes_.push_back(left_out(subjects.without, "subject", "subjects") + of_all +
+                       ", without the surface " + options_.surface);
+    for (const auto& [side, names] :
+         {std::pair("lh.", &subjects.without_left), std::pair("rh.", &subjects.without_right)})
+      if (!names->empty())
+        notes_.push_back(counted(std::ssize(*names), "subject") + of_all + " without " + side +
+                         options_.surface + ", with the other hemisphere alone (" + listed(*names) +
+                         ")");
+    if (!subjects.others.empty())
+      notes_.push_back(left_out(subjects.others, "folder", "folders") +
+                       " as what has no surface in surf/");
+  }
+
+  /// Is it there?
+  bool add_hemisphere(const fs::path& subject, const std::string& side) {
+    const std::string name = side + "." + options_.surface;
+    for (const std::string ending : {".surf.gii", ".gii", ""}) {
+      const fs::path file = subject / "surf" / (name + ending);
+      if (!is_file(file)) continue;
+      add(file, shape_id_of(subject.filename().string() + "_" + side + "_" + options_.surface));
+      return true;
     }
+    return false;
   }
 
   /// Of whatever surface.

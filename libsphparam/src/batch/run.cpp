@@ -21,6 +21,7 @@
 #include "batch/content_hash.h"
 #include "batch/input_hash.h"
 #include "batch/item_run.h"
+#include "batch/options_hash.h"
 #include "batch/publication.h"
 #include "batch/staging.h"
 #include "option_domain.h"
@@ -156,12 +157,20 @@ class BatchRun {
       summary_.other_program += !head.failed();
       return false;
     }
-    if (!has_same_input(head, item.path, options_.rehash)) return false;
+    if (!has_same_input(head, item.path, options_.rehash) || !has_same_options(item)) return false;
     if (!has_its_files(result_folder(folder_, item.id), head.files)) return false;
     ++(head.failed() ? summary_.skipped_failed : summary_.skipped);
     if (head.failed()) note_failure(number, head.code);
     ++ended_;
     return true;
+  }
+
+  /// Are the files that the options name those that were planned? Files have no stamps in records:
+  /// they are read, each once.
+  bool has_same_options(const BatchItem& item) try {
+    return options_hash_.of(item) == item.options;
+  } catch (const ReadError&) {
+    return false;
   }
 
   void start(std::size_t number) {
@@ -274,6 +283,7 @@ class BatchRun {
   const std::vector<std::size_t> items_;
   const int workers_;
   const ItemSetting setting_;
+  OptionsHash options_hash_{plan_};
   std::list<RunningItem> running_;
   BatchRunSummary summary_;
   std::size_t ended_ = 0, first_failed_ = 0;
