@@ -59,6 +59,13 @@ GltfAccessors::GltfAccessors(const GltfDocument& document, const std::string& na
   for (const auto& buffer : document.buffers) buffer_bytes_ += buffer.size();
 }
 
+void GltfAccessors::require_components(int accessor, std::initializer_list<int> allowed,
+                                       const std::string& where) const {
+  const int components = this->accessor(accessor).components;
+  if (std::find(allowed.begin(), allowed.end(), components) == allowed.end())
+    fail(accessor, where + " needs another number of components");
+}
+
 void GltfAccessors::fail(int accessor, const std::string& message) const {
   throw ReadError(name_, "accessor " + std::to_string(accessor) + ": " + message);
 }

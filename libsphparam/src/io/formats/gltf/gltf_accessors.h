@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <set>
@@ -42,6 +43,11 @@ class GltfAccessors {
 
   /// Accessors read so far whose numbers are not aligned.
   long misaligned() const { return static_cast<long>(misaligned_.size()); }
+
+  /// Throws: ReadError unless each element has one of these numbers of components; `where`: what
+  /// uses the accessor.
+  void require_components(int accessor, std::initializer_list<int> allowed,
+                          const std::string& where) const;
 
   [[noreturn]] void fail(int accessor, const std::string& message) const;
 
