@@ -29,8 +29,8 @@ namespace {
 constexpr int usual_resolution = 128;
 constexpr double usual_distance = 2;  // voxels
 constexpr double most_points = 1e8;   // of a lattice: 0.5 to 0.9 GB
-constexpr double roundings_a_voxel =
-    1e6;  // of the largest coordinate, so that lattices are regular
+// Of the largest coordinate, so that lattices are regular.
+constexpr double roundings_a_voxel = 1e6;
 constexpr double largest_coordinate = 1e70, least_extent = 1e-60;  // fourth powers are doubles
 constexpr std::int64_t samples = 100'000;  // of each surface, for their distance
 

@@ -13,8 +13,8 @@ struct BrechbuehlerOptions {
   /// North and south; without: the vertices of greatest and least z, as the authors take them.
   std::optional<std::pair<Vertex, Vertex>> poles = std::nullopt;
   int max_steps = 50;  // ≥ 0, of the optimisation; 0: the initial map
-  double least_gain =
-      1e-4;  // 0 to 1; a step that lowers the merit by a smaller share is the last of its ρ
+  /// 0 to 1; a step that lowers the merit by a smaller share is the last of its ρ.
+  double least_gain = 1e-4;
   double greatest_penalty = 1000;  // ρ at the end, at least 1; it starts at 1
   int threads = 0;                 // 0: all cores
 };

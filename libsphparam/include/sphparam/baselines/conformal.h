@@ -8,8 +8,8 @@ namespace sphparam {
 
 struct ConformalOptions {
   int max_iterations = 5000;  // ≥ 0, of each of the two descents
-  double least_gain =
-      1e-7;         // 0 to 1; a descent ends when a step lowers its energy by a smaller share
+  /// 0 to 1; a descent ends when a step lowers its energy by a smaller share.
+  double least_gain = 1e-7;
   int threads = 0;  // 0: all cores
 };
 

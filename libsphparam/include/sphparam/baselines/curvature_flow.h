@@ -9,8 +9,8 @@ namespace sphparam {
 struct FlowOptions {
   int max_steps = 100;      // ≥ 0
   double time_step = 0.05;  // > 0, of a surface of area 4π
-  double roundness =
-      1e-3;         // ≥ 0; done when radii deviate by less from their mean, root mean square
+  /// ≥ 0; done when radii deviate by less from their mean, root mean square.
+  double roundness = 1e-3;
   int threads = 0;  // 0: all cores
 };
 

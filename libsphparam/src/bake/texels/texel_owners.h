@@ -30,8 +30,8 @@ struct TexelRun {
 struct OwnerBand {
   int width = 0, first_row = 0, rows = 0;
   std::vector<Face> faces;  // rows·width, row by row: chart faces, never −1
-  std::vector<std::array<double, 2>>
-      weights;  // of the face's corners 0 and 1; corner 2 has the rest
+  // Of the face's corners 0 and 1; corner 2 has the rest.
+  std::vector<std::array<double, 2>> weights;
 
   size_t index(int row, int column) const {
     return static_cast<size_t>(row - first_row) * static_cast<size_t>(width) +

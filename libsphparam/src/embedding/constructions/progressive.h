@@ -22,8 +22,8 @@ struct ProgressiveOptions {
   int retries = 5;               // of a level whose vertices found no room; 0 to `most_retries`
   std::vector<Pin> pins = {};    // vertices that lie at given points; no vertex twice
   const SphereMap* free_map = nullptr;  // borrowed: of the mesh, bijective, made without the pins
-  int pin_level =
-      400;  // vertices of the level where pins are placed, 20 a pin if that is more; ≥ 0
+  // Vertices of the level where pins are placed, 20 a pin if that is more; ≥ 0.
+  int pin_level = 400;
   /// Triangles that are no surface, and what they may take of the sphere, 0 to 1: from some level
   /// on they are pressed (see `press_fillers`). The finest level gets sweeps alone of that: such a
   /// map is to be settled, and where sweeps do not suffice compared with one made without fillers.

@@ -25,8 +25,8 @@ struct ShapeProjection {
   using Six = typename Derivatives::Six;
 
   static constexpr double definite = 1e-9;  // least pivot, of the largest entry, left as it is
-  static constexpr double least_curvature =
-      1e-6;                                // of the largest entry: eigenvalues are raised to
+  // Eigenvalues are raised to this share of the largest entry.
+  static constexpr double least_curvature = 1e-6;
   static constexpr int jacobi_sweeps = 4;  // quadratic convergence: full precision
 
   /// Orthonormal: two rotations dropped, `turn` in the triangle's plane, three shape directions.

@@ -11,8 +11,8 @@ namespace sphparam {
 namespace {
 
 constexpr std::int64_t grain = 4096;
-constexpr double least_ratio =
-    0.01;  // of a determinant to twice the solid angle, near half a sphere
+// Of a determinant to twice the solid angle, near half a sphere.
+constexpr double least_ratio = 0.01;
 
 struct ImageArea {
   double solid_angle;

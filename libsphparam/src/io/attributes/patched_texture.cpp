@@ -196,8 +196,8 @@ class PatchTexture {
   std::vector<Face> patch_;       // what was put in
   std::vector<Halfedge> beside_;  // of each of its sides, the other side of the edge; −1: none
   std::vector<Halfedge> rim_of_;  // of each, the old side that it belongs to
-  std::map<std::tuple<Vertex, double, double, double>, int>
-      ends_;                        // of rim sides, by what is there
+  // Of rim sides, by what is there.
+  std::map<std::tuple<Vertex, double, double, double>, int> ends_;
   std::map<Halfedge, int> run_of_;  // of rim sides
   std::map<Node, Texcoord> placed_;
   std::map<int, Texcoord> means_;
