@@ -145,6 +145,7 @@ TEST_CASE("curvature: of a mesh 2^k times as large, 1/2^k times as large to the 
     const Curvature c = curvature_of(scaled, std::ldexp(0.25, k));
     CHECK(c.mean == one.mean * std::ldexp(1.0, -k));
     CHECK((k < 0 || c.gauss == one.gauss * std::ldexp(1.0, -2 * k)));
+    CHECK(c.area == one.area * std::ldexp(1.0, 2 * k));
     CHECK(c.gauss.allFinite());
     CHECK(c.area.allFinite());
     CHECK(equal_area_radius(scaled) == equal_area_radius(mesh) * std::ldexp(1.0, k));

@@ -64,7 +64,9 @@ TEST_CASE("mesh_defects: a torus has genus 1 and nothing else wrong") {
   REQUIRE(inspection.defects.size() == 1);
   CHECK(inspection.defects[0].kind == DefectKind::WrongGenus);
   CHECK(inspection.genus == 1);
-  CHECK_THROWS_AS(require_sphere(torus(8)), MeshError);
+  CHECK_THROWS_WITH(require_sphere(torus(8)),
+                    "the mesh is not a closed genus-0 manifold; genus 1 (Euler characteristic 0): "
+                    "only surfaces without handles map to the sphere");
 }
 
 TEST_CASE("mesh_defects: a torus beside two spheres has characteristic 4 and is still refused") {
@@ -206,6 +208,18 @@ TEST_CASE("mesh_defects: whether faces have area is told alike at every size") {
     REQUIRE(find(inspection, DefectKind::ZeroAreaFace));
     CHECK(find(inspection, DefectKind::ZeroAreaFace)->count == 2);
   }
+}
+
+TEST_CASE(
+    "mesh_defects: a surface in one place has no size, one far off keeps the digits of its own") {
+  TriangleMesh mesh = icosphere(1);
+  const MeshInspection alone = inspect_mesh(mesh);
+  mesh.positions.array() += 1e6;
+  CHECK(inspect_mesh(mesh).volume == Approx(alone.volume).epsilon(1e-8));
+  CHECK(inspect_mesh(mesh).area == Approx(alone.area).epsilon(1e-8));
+  mesh.positions.setConstant(3);
+  CHECK(inspect_mesh(mesh).volume == 0);
+  CHECK(inspect_mesh(mesh).area == 0);
 }
 
 TEST_CASE("mesh_defects: an unused vertex, however far off, changes no size") {
