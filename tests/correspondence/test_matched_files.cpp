@@ -57,6 +57,16 @@ TEST_CASE("matched files: colours are rounded means, labels those of the nearest
     CHECK((region == 7 || region == 1000));
 }
 
+TEST_CASE("matched files: a texture goes where colours come, which it would hide") {
+  const MappedMesh a = ball(2), b = ball(1);
+  MeshFile skinned = a.file(), coloured = b.file();
+  skinned.comments = {"TextureFile skin.png"};
+  coloured.set_vertex_property({"red", ScalarType::Uint8, std::vector<double>(42, 9)});
+  const MappedMesh from = with_file(a, skinned);
+  CHECK(with_other_values(SurfaceMap(from, with_file(b, coloured))).comments.empty());
+  CHECK(with_other_values(SurfaceMap(from, b)).comments == skinned.comments);
+}
+
 TEST_CASE("matched files: in the other shape, up is what the other file says") {
   const MappedMesh plain = ball(2);
   MeshFile file = plain.file();

@@ -40,6 +40,19 @@ TEST_CASE("paint: vertices get whole numbers to 255, and the mesh keeps its map"
   }
 }
 
+TEST_CASE("paint: the texture of the mesh, which would be seen instead, is left out") {
+  MeshFile file = ball().file();
+  file.comments = {"TextureFile skin.png", "scanned"};
+  file.materials = {"skin.png"};
+  file.base_colours = {MaterialTexture{.image = "skin.png"}};
+  const MappedMesh mapped({.file = file, .map = ball().map()});
+  const TexturePyramid pyramid(uniform_image(8, 0.5F));
+  const MeshFile painted =
+      paint_vertices(mapped, EquirectangularImage(pyramid, Convention::Sphparam));
+  CHECK(painted.comments == std::vector<std::string>{"scanned"});
+  CHECK(painted.base_colours.empty());
+}
+
 TEST_CASE("paint: triangles that overlap are told by their numbers in the file") {
   PaintedAtlas atlas;
   CHECK(overlap_warning(atlas, ball().file()).empty());

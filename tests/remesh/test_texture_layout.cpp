@@ -186,6 +186,16 @@ TEST_CASE("texture layout: coarser grids by halves have the layout of the finer 
   }
 }
 
+TEST_CASE("texture layout: the texture of the mesh, which lies on others, is left out") {
+  const TriangleMesh ball = tests::icosphere(2);
+  const MappedMesh source({.file = {.mesh = ball, .comments = {"TextureFile skin.png", "scanned"}},
+                           .map = {ball.positions}});
+  const Remeshed made = remesh(source, parse_grid("cube:2"));
+  const auto comments = with_grid_texture(made, texture_layout(*made.spec(), 64)).file().comments;
+  CHECK(std::ranges::count(comments, "scanned") == 1);
+  CHECK(std::ranges::count(comments, "TextureFile skin.png") == 0);
+}
+
 TEST_CASE("texture layout: a mesh gets its coordinates, quads and all") {
   const TriangleMesh ball = tests::icosphere(3);
   const MappedMesh source({.file = {.mesh = ball}, .map = {ball.positions}});

@@ -9,9 +9,11 @@
 #include "commands/sources.h"
 #include "console/places.h"
 #include "io/attributes/appearance.h"
+#include "io/attributes/texture_pages.h"
 #include "number_text.h"
 #include "reports/told_losses.h"
 #include "sphparam/io/certified_files.h"
+#include "sphparam/io/losses.h"
 
 namespace sphparam::cli {
 
@@ -87,12 +89,15 @@ std::string atlas(const PaintArguments& arguments, const MappedMesh& source,
   throw UsageMistake(std::string("--atlas: ") + error.what());
 }
 
-/// Adds the mesh with its colours. Returns what of it the format has no place for.
+/// Adds the mesh with its colours. Returns what of it is left out, or has no place in the format.
 Words add_coloured_mesh(const PaintArguments& arguments, const MappedMesh& source,
                         const EquirectangularImage& image, Session& session) {
-  return add_mesh(session.files, arguments.output,
-                  paint_vertices(source, image, {session.threads(), session.progress()}),
-                  {.origin = arguments.input});
+  Words losses = add_mesh(session.files, arguments.output,
+                          paint_vertices(source, image, {session.threads(), session.progress()}),
+                          {.origin = arguments.input});
+  if (has_textures(source.file()))
+    add_loss(losses, "its own texture, which would be seen instead of the colours");
+  return losses;
 }
 
 /// The mesh with its map; what it lacks is told before it is mapped.

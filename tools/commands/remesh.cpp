@@ -281,7 +281,8 @@ void add_images(PendingFiles& files, const RemeshArguments& arguments,
 void tell_left_out_of_table(const std::string& table, const MeshFile& made, Console& console) {
   std::vector<std::string> names;
   for (const Property& property : made.face_properties)
-    if (property.name != filler_property) names.push_back(property.name);
+    if (property.name != filler_property && property.name != "source_face")  // of the grid's quads
+      names.push_back(property.name);
   Words losses;
   if (!names.empty()) add_loss(losses, enumerated(names) + " of faces: rows are of vertices");
   tell_losses(table, losses, console);

@@ -8,6 +8,7 @@
 
 #include "io/attributes/corner_colours.h"
 #include "io/attributes/other_coordinates.h"
+#include "io/attributes/texture_pages.h"
 #include "io/attributes/weightiest_label.h"
 #include "sphparam/io/sphere_file.h"
 
@@ -140,6 +141,7 @@ MeshFile with_other_values(const SurfaceMap& map, int threads) {
     if (is_among(not_carried, property.name)) continue;
     file.set_vertex_property(carried(map.to().mesh(), property, points));
   }
+  if (map.to().file().find_vertex_property("red")) remove_textures(file);
   return file;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "image/image_codec.h"
+#include "io/attributes/texture_pages.h"
 #include "option_domain.h"
 #include "paint/paint_atlas.h"
 #include "paint/paint_vertices.h"
@@ -42,6 +43,7 @@ MeshFile paint_vertices(const MappedMesh& mapped, const EquirectangularImage& im
                       : mapped.file();
   const std::vector<std::string> names = {"red", "green", "blue", "alpha"};
   remove_properties(file.vertex_properties, names);
+  remove_textures(file);
   const size_t channels = image.has_alpha() ? 4 : 3;
   for (size_t c = 0; c < channels; ++c) {
     file.set_vertex_property(channel_of(colours, names[c], c));

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "io/attributes/texture_pages.h"
 #include "remesh/grids/grid_family.h"
 #include "remesh/texture_lattice.h"
 
@@ -94,6 +95,7 @@ Remeshed with_grid_texture(const Remeshed& mesh, const TextureLayout& layout, in
   const TextureLattice lattice(spec_with_layout(mesh), mesh.grid(), layout);
   MeshFile file = mesh.file();
   put_coordinates(file, mesh.faces(), lattice);
+  remove_textures(file);  // which lie on other coordinates
   file.comments.push_back(comment_of(name_of(*mesh.spec()), layout));
   file.comments.insert(file.comments.end(), comments.begin(), comments.end());
   return {MappedMesh({.file = std::move(file),

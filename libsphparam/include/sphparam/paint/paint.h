@@ -27,7 +27,8 @@ struct PaintOptions {
 /// The mesh with its map and, at its vertices, red, green and blue (and alpha, where the image has
 /// it), whole numbers to 255: the mean of the image over each vertex's cell on the sphere, the
 /// thirds of its triangles next to it, taken in linear light. Where texels are larger than the cell
-/// that is the image at the vertex. Colours that were there are replaced.
+/// that is the image at the vertex. Colours that were there are replaced, and textures left out,
+/// which would be seen instead.
 /// Ensures: same values for any number of threads. Throws: Cancelled. Cost: three lookups a
 /// triangle.
 MeshFile paint_vertices(const MappedMesh& mapped, const EquirectangularImage& image,
