@@ -34,7 +34,7 @@ constexpr char summary[] =
     "  sphparam export statue.sph.ply --images bake/ --variants checker,graticule -o statue.glb\n"
     "  sphparam export statue.sph.ply --image earth.png --morph sphere -o statue.gltf\n"
     "  sphparam export statue.sph.ply --image earth.png --shape sphere -o ball.glb\n"
-    "  sphparam export statue.sph.ply --image earth.png -o statue.obj\n"
+    "  sphparam export statue.sph.ply --image earth.png -o statue_earth.obj\n"
     "\n"
     "Any equirectangular image sits right: the mesh is split along the date line and at the "
     "poles,\n"
