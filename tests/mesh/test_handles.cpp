@@ -247,6 +247,9 @@ TEST_CASE("handles: the wanted one of two loops is cut along") {
   CHECK(through.handles[0].length == Approx(2 * 3.14159 * 0.3).epsilon(0.1));
   CHECK(closed.handles[0].length == Approx(2 * 3.14159 * 0.7).epsilon(0.1));
   CHECK(through.handles[0].area_added == Approx(2 * 3.14159 * 0.09).epsilon(0.2));
+  // The caps through the tube have less area than those over the hole.
+  CHECK(repair_mesh(mesh, only_handles(10, HandleChoice::Area)).handles.at(0).length ==
+        Approx(through.handles[0].length));
   // Inside out it is the same surface, the other side.
   TriangleMesh inside_out = mesh;
   inside_out.triangles.col(1).swap(inside_out.triangles.col(2));
@@ -264,6 +267,9 @@ TEST_CASE("handles: those longer than the limit stay, and the length that it tak
   const RepairedMesh cut = repair_mesh(mesh, only_handles(1.001 * needed));
   REQUIRE(cut.inspection.is_sphere());
   CHECK(cut.handles[0].share == Approx(needed));
+  const double diagonal =
+      (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).norm();
+  CHECK(cut.handles[0].length == Approx(needed * diagonal));
   RepairOptions by_length = only_handles(0);
   by_length.longest_handle_length = 1.001 * cut.handles[0].length;
   CHECK(repair_mesh(mesh, by_length).inspection.is_sphere());

@@ -106,6 +106,24 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("mesh_hierarchy: a level as a mesh has its places, and its rings the same way round") {
+  const TriangleMesh mesh = some_mesh(GENERATE(0, 1, 2, 4));
+  for (const HierarchyLevel& level : complete(build_hierarchy(mesh, Topology(mesh)))) {
+    const TriangleMesh as_mesh = triangle_mesh(level);
+    CHECK(as_mesh.positions == level.positions);
+    CHECK(as_mesh.face_count() == 2 * level.vertex_count() - 4);
+    const Topology topology(as_mesh);
+    for (Vertex v = 0; v < level.vertex_count(); ++v) {
+      const int k = level.valence(v);
+      for (int i = 0; i < k; ++i) {
+        const Halfedge h = topology.find_halfedge(v, level.ring_begin(v)[i]);
+        REQUIRE(h >= 0);
+        REQUIRE(topology.apex(h) == level.ring_begin(v)[(i + 1) % k]);
+      }
+    }
+  }
+}
+
 TEST_CASE("mesh_hierarchy: the same levels for 1, 2 and 4 threads") {
   const TriangleMesh mesh = icosphere(5);
   const Topology topology(mesh);

@@ -499,6 +499,14 @@ TEST_CASE("mesh_repair: faces without area go where the surface stays a sphere")
   }
 }
 
+TEST_CASE("mesh_repair: where no face has area none is mended, as there is no shape to keep") {
+  TriangleMesh mesh = icosphere(1);
+  mesh.positions.rightCols(2).setZero();
+  const RepairedMesh repaired = repair_mesh(mesh);
+  CHECK(repaired.actions.empty());
+  CHECK(same(repaired.mesh, mesh));
+}
+
 TEST_CASE("mesh_repair: faces without area are found and mended however small beside the mesh") {
   TriangleMesh mesh = icosphere(4);
   for (double& x : mesh.positions.reshaped()) x = 2 * std::round(500 * x);  // sums and halves exact
