@@ -80,14 +80,14 @@ TEST_CASE("on_sphere: colours and texture coordinates are linear on the chords")
   }
   const TriangleMesh& coarse = object.mesh;
   TexturePaint texture;
-  texture.texcoords = CornerTexcoords(24, 2);
+  texture.texcoords.corners = CornerTexcoords(24, 2);
   for (Eigen::Index corner = 0; corner < 24; ++corner) {
     const Vector3 p = coarse.position(coarse.triangles(corner / 3, corner % 3));
-    texture.texcoords.row(corner) << p.x(), p.y();
+    texture.texcoords.corners.row(corner) << p.x(), p.y();
   }
   object.paint = texture;
   const RenderObject textured = on_sphere(object, object.mesh.positions);
-  const auto& uv = std::get<TexturePaint>(textured.paint).texcoords;
+  const auto& uv = std::get<TexturePaint>(textured.paint).texcoords.corners;
   for (Eigen::Index corner = 0; corner < uv.rows(); ++corner) {
     const Vector3 p = textured.mesh.position(textured.mesh.triangles(corner / 3, corner % 3));
     CHECK(std::abs(uv(corner, 0) * p.y() - uv(corner, 1) * p.x()) < 1e-6);

@@ -55,8 +55,8 @@ RenderScene textured_square(const Image& texture, int size) {
   object.mesh.triangles.resize(2, 3);
   object.mesh.triangles << 0, 1, 2, 0, 2, 3;
   TexturePaint paint;
-  paint.texcoords.resize(6, 2);
-  paint.texcoords << 0, 0, 1, 0, 1, 1, 0, 0, 1, 1, 0, 1;
+  paint.texcoords.corners.resize(6, 2);
+  paint.texcoords.corners << 0, 0, 1, 0, 1, 1, 0, 0, 1, 1, 0, 1;
   paint.textures = {texture_of(texture)};
   object.paint = paint;
   scene.objects.push_back(object);
@@ -197,7 +197,7 @@ TEST_CASE(
   texcoords.topRows(600).setConstant(std::nan(""));
   texcoords.middleRows(600, 600).setConstant(std::numeric_limits<double>::infinity());
   texcoords.middleRows(1200, 600).setConstant(-1e300);
-  scene.objects[0].paint = TexturePaint{texcoords, {texture_of(Image(2, 2, 3))}};
+  scene.objects[0].paint = TexturePaint{{texcoords, {}}, {texture_of(Image(2, 2, 3))}};
   for (const float value : render(scene).pixels) {
     CHECK(value >= 0);
     CHECK(value <= 1);

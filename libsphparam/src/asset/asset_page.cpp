@@ -125,7 +125,8 @@ class AssetPage {
     DrawingOptions options = drawing();
     if (!base_colour_.empty()) {
       MeshTextures textures;
-      textures.of_materials = {read_texture(base_colour_, TextureWrap::Repeat, shown_.threads)};
+      textures.of_materials = {
+          read_texture(mesh, base_colour_, TextureWrap::Repeat, shown_.threads)};
       textures.one_for_all = true;
       options.textures = std::make_shared<const MeshTextures>(std::move(textures));
     }

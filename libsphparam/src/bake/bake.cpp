@@ -41,7 +41,8 @@ void read_source_textures(const BakeSettings& settings, BakeSource& source) {
   if (settings.texture.empty()) {
     source.textures = read_textures(source.file(), settings.threads);
   } else {
-    source.textures = {read_texture(settings.texture, settings.wrap, settings.threads)};
+    source.textures = {
+        read_texture(source.file(), settings.texture, settings.wrap, settings.threads)};
     source.one_texture_for_all = true;
   }
 }

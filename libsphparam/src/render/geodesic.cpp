@@ -15,8 +15,8 @@
 namespace sphparam {
 namespace {
 
-constexpr double longest_arc =
-    0.05;                    // radians: an arc rises 0.0003 over its chord, 0.1 of 400 pixels
+// Radians: an arc rises 0.0003 over its chord, 0.1 of 400 pixels.
+constexpr double longest_arc = 0.05;
 constexpr int deepest = 48;  // halvings of one triangle; six halve any side often enough
 
 using Barycentric = Eigen::Matrix<float, 3, 3, Eigen::RowMajor>;  // a row a corner
@@ -160,12 +160,12 @@ TexturePaint refined(const TexturePaint& paint, const Refinement& refinement) {
       result.texture_of.push_back(paint.texture_of[static_cast<size_t>(piece.source)]);
     }
   }
-  if (paint.texcoords.rows() == 0) return result;
-  result.texcoords.resize(3 * static_cast<Eigen::Index>(refinement.pieces().size()), 2);
+  if (paint.texcoords.corners.rows() == 0) return result;
+  result.texcoords.corners.resize(3 * static_cast<Eigen::Index>(refinement.pieces().size()), 2);
   Eigen::Index row = 0;
   for (const Piece& piece : refinement.pieces()) {
-    result.texcoords.middleRows<3>(row) =
-        piece.weights.cast<double>() * paint.texcoords.middleRows<3>(3 * piece.source);
+    result.texcoords.corners.middleRows<3>(row) =
+        piece.weights.cast<double>() * paint.texcoords.corners.middleRows<3>(3 * piece.source);
     row += 3;
   }
   return result;

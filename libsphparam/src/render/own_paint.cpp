@@ -17,11 +17,11 @@ bool any_image(const MeshTextures& textures) {
 
 TexturePaint texture_paint(const MeshFile& file, const MeshTextures& textures) {
   TexturePaint paint{.texcoords = {}, .textures = textures.of_materials};
-  if (auto corners = texcoords_of(file)) paint.texcoords = std::move(*corners);
-  const Property* const material = file.find_face_property("material");
-  if (material && !textures.one_for_all) {
-    paint.texture_of.assign(material->values.begin(), material->values.end());
-  }
+  const Property* const material =
+      textures.one_for_all ? nullptr : file.find_face_property("material");
+  if (auto corners = texcoords_of(file))
+    paint.texcoords = seamed(file.mesh.triangles, std::move(*corners), material);
+  if (material) paint.texture_of.assign(material->values.begin(), material->values.end());
   return paint;
 }
 

@@ -10,6 +10,7 @@
 #include "sphparam/io/mesh_file.h"
 #include "sphparam/mesh/triangle_mesh.h"
 #include "texture/source_texture.h"
+#include "texture/texture_seams.h"
 
 namespace sphparam {
 
@@ -45,7 +46,7 @@ struct CheckerPaint {
 };
 /// Textures through texture coordinates, v upwards, filtered by what a pixel covers of them.
 struct TexturePaint {
-  CornerTexcoords texcoords;            // empty where no texture has an image
+  SeamedTexcoords texcoords;            // empty where no texture has an image
   std::vector<SourceTexture> textures;  // alpha is not looked at
   std::vector<int> texture_of = {};     // a face, −1: white; empty: the first for all
 };

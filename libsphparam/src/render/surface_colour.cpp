@@ -73,9 +73,15 @@ const SourceTexture& texture_of(const TexturePaint& paint, Face face) {
 /// has none. Black where coordinates are no numbers.
 Rgb texture_colour(const TexturePaint& paint, const ShadedSample& sample) {
   Eigen::Vector2d here(0, 1), right(0, 0), below(0, 0);
-  if (paint.texcoords.rows() > 0) {
+  TextureLine::Face face;
+  if (paint.texcoords.corners.rows() > 0) {
     const Eigen::Matrix<double, 2, 3> corners =
-        paint.texcoords.middleRows<3>(3 * sample.face).transpose();
+        paint.texcoords.corners.middleRows<3>(3 * sample.face).transpose();
+    face.seams = paint.texcoords.seams_of(sample.face);
+    for (int k = 0; k < 3; ++k) {
+      for (int c = 0; c < 2; ++c) face.corners[k][c] = corners(c, k);
+      face.first[k] = sample.weights[k];
+    }
     here = corners * sample.weights;
     right = corners * (sample.weights_right - sample.weights);
     below = corners * (sample.weights_below - sample.weights);
@@ -83,7 +89,7 @@ Rgb texture_colour(const TexturePaint& paint, const ShadedSample& sample) {
   if (!here.allFinite()) return Rgb::Zero();
   if (!right.allFinite() || !below.allFinite()) right = below = Eigen::Vector2d::Zero();
   const TextureLine line{
-      {here.x(), 1 - here.y()}, {right.x(), -right.y()}, {below.x(), -below.y()}, 1};
+      {here.x(), 1 - here.y()}, {right.x(), -right.y()}, {below.x(), -below.y()}, 1, face};
   Rgb colour;
   sample_texture(texture_of(paint, sample.face), TextureFilter::Bilinear, line, colour.data(), 3);
   return colour;

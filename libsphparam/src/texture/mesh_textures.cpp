@@ -40,7 +40,7 @@ std::string see_through(const MeshFile& file) {
 ShownTextures shown_textures(const MeshFile& file, const std::string& name,
                              const std::string& image, int threads) {
   if (!image.empty()) {
-    const SourceTexture texture = read_texture(image, TextureWrap::Repeat, threads);
+    const SourceTexture texture = read_texture(file, image, TextureWrap::Repeat, threads);
     if (has_texcoords(file)) {
       ShownTextures result = shown({.of_materials = {texture}, .one_for_all = true});
       result.warning = texture.warning;

@@ -11,6 +11,7 @@
 #include "number_text.h"
 #include "sphparam/io/paths.h"
 #include "texture/baked_texts.h"
+#include "texture/seen_by_mesh.h"
 #include "texture/specular_glossiness_image.h"
 #include "texture/texture_pyramid.h"
 
@@ -18,11 +19,6 @@ namespace sphparam {
 namespace {
 
 constexpr std::uint64_t most_image_bytes = std::uint64_t{2} << 30;
-
-TextureWrap wrap_of(Wrapping wrapping) {
-  if (wrapping == Wrapping::Clamp) return TextureWrap::Clamp;
-  return wrapping == Wrapping::Mirror ? TextureWrap::Mirror : TextureWrap::Repeat;
-}
 
 std::vector<char> bytes_of(const MaterialTexture& colour) {
   if (colour.bytes) return *colour.bytes;
@@ -89,8 +85,8 @@ Image image_of(const MaterialTexture& texture, const std::string& what) {
 }
 
 /// Throws ImageError.
-DecodedTexture decode(const MaterialTexture& colour, const std::string& what, TexelKind kind,
-                      int threads) {
+DecodedTexture decode(const MeshFile& file, const MaterialTexture& colour, const std::string& what,
+                      TexelKind kind, int threads) {
   bool linear = kind == TexelKind::Number;
   Image image;
   ImageTexts texts;
@@ -104,7 +100,8 @@ DecodedTexture decode(const MaterialTexture& colour, const std::string& what, Te
   }
   const bool heights = colour.bump != 0 && is_grey(image);
   if (heights) image = normals_of_heights(image, colour);
-  return {std::make_shared<const TexturePyramid>(image, linear, threads), heights,
+  const SeenTexels seen = seen_texels(file, origin_of(colour), image.width, image.height, threads);
+  return {std::make_shared<const TexturePyramid>(image, linear, threads, seen), heights,
           file_warning(colour.image, texts, linear)};
 }
 
@@ -164,15 +161,22 @@ std::vector<std::string> warnings_of(const std::vector<SourceTexture>& textures)
   return warnings;
 }
 
+TextureWrap wrap_of(Wrapping wrapping) {
+  if (wrapping == Wrapping::Clamp) return TextureWrap::Clamp;
+  return wrapping == Wrapping::Mirror ? TextureWrap::Mirror : TextureWrap::Repeat;
+}
+
 ImageOrigin origin_of(const MaterialTexture& texture) {
   return {texture.folder, texture.path, texture.bytes, texture.made_of};
 }
 
-SourceTexture read_texture(const std::string& path, TextureWrap wrap, int threads) {
+SourceTexture read_texture(const MeshFile& file, const std::string& path, TextureWrap wrap,
+                           int threads) {
   const bool linear = extension_of(path) == ".exr";
   ImageTexts texts;
   const Image image = read_image(path, {}, &texts);
-  return {.image = std::make_shared<const TexturePyramid>(image, linear, threads),
+  const SeenTexels seen = seen_texels(file, wrap, image.width, image.height, threads);
+  return {.image = std::make_shared<const TexturePyramid>(image, linear, threads, seen),
           .wrap_s = wrap,
           .wrap_t = wrap,
           .warning = file_warning(path, texts, linear)};
@@ -193,7 +197,7 @@ SourceTexture TextureReader::read(const MaterialTexture& said, const std::string
   DecodedTexture& decoded =
       decoded_[{origin_of(said), said.bump, wraps_count ? said.wrap_s : Wrapping::Repeat,
                 wraps_count ? said.wrap_t : Wrapping::Repeat}];
-  if (!decoded.image) decoded = decode(said, what, kind_, threads_);
+  if (!decoded.image) decoded = decode(file_, said, what, kind_, threads_);
   texture.image = decoded.image;
   texture.warning = decoded.warning;
   if (said.bump != 0 && !decoded.heights) texture.factor[0] = static_cast<float>(said.bump);

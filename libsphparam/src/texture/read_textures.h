@@ -14,7 +14,8 @@ namespace sphparam {
 
 /// A texture of the user's own for all of the mesh.
 /// Throws: ImageError.
-SourceTexture read_texture(const std::string& path, TextureWrap wrap, int threads);
+SourceTexture read_texture(const MeshFile& file, const std::string& path, TextureWrap wrap,
+                           int threads);
 
 /// The textures of a file's materials, decoded; empty where it has none. An image that several
 /// materials use is decoded once.
@@ -39,6 +40,8 @@ std::string why_unusable(const MaterialTexture& texture);
 using ImageOrigin = std::tuple<std::string, std::string, std::shared_ptr<const std::vector<char>>,
                                std::shared_ptr<const SpecularGlossiness>>;
 ImageOrigin origin_of(const MaterialTexture& texture);
+
+TextureWrap wrap_of(Wrapping wrapping);
 
 /// Whether images hold colours, which are sRGB but for those of EXR, or numbers.
 enum class TexelKind { Colour, Number };

@@ -4,11 +4,13 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "elementary.h"
 #include "sphparam/parallel.h"
 #include "srgb_curves.h"
 #include "texture/box_shares.h"
+#include "texture/wrapped.h"
 
 // Texels are four lanes, so that a bilinear sample is four loads and a handful of vector
 // operations. The singular values of the footprint's Jacobian are the sides of what a sample
@@ -23,8 +25,9 @@ using Texel = std::uint16_t __attribute__((vector_size(8)));
 using Level = TexturePyramid::Level;
 
 constexpr float full = 65535;
-constexpr int most_taps = 16;       // along the wide side of a sample
-constexpr std::int64_t grain = 16;  // rows
+constexpr int most_taps = 16;            // along the wide side of a sample
+constexpr double reach_of_texels = 1.5;  // that a bilinear look-up touches, from its place
+constexpr std::int64_t grain = 16;       // rows
 
 std::uint16_t stored(float x) { return static_cast<std::uint16_t>(std::lround(x * full)); }
 
@@ -55,51 +58,97 @@ Lanes texel_at(const Level& level, size_t index) {
   return __builtin_convertvector(__builtin_convertvector(texel, IntLanes), Lanes);
 }
 
-Level halved(const Level& fine, int threads) {
-  Level coarse{std::max(1, fine.width / 2), std::max(1, fine.height / 2), {}};
-  coarse.texels.resize(4 * static_cast<size_t>(coarse.width) * static_cast<size_t>(coarse.height));
+/// How much each texel of a level counts in means. The finest level's are those of `seen`.
+class Weights {
+ public:
+  explicit Weights(const SeenTexels& seen) : seen_(&seen) {}
+  explicit Weights(size_t texels) : values_(texels, 0) {}
+
+  float operator[](size_t texel) const { return seen_ ? seen_->weight(texel) : values_[texel]; }
+  float& of(size_t texel) { return values_[texel]; }
+
+ private:
+  const SeenTexels* seen_ = nullptr;
+  std::vector<float> values_;
+};
+
+/// A mean over a box of texels.
+struct BoxMean {
+  Lanes seen{}, plain{};  // sums
+  float weight = 0;       // of what is seen
+
+  void add(float share, float weight_of, const Lanes& texel) {
+    seen += share * weight_of * texel;
+    plain += share * texel;
+    weight += share * weight_of;
+  }
+  /// Where all of a box is seen the sum is the mean: shares are 1 together.
+  Lanes mean(bool all_seen) const { return all_seen || weight == 0 ? plain : seen / weight; }
+};
+
+struct WeightedLevel {
+  Level level;
+  Weights weights;
+};
+
+Level with_room(int width, int height) {
+  Level level{width, height, {}};
+  level.texels.resize(4 * static_cast<size_t>(width) * static_cast<size_t>(height));
+  return level;
+}
+
+WeightedLevel halved(const Level& fine, const Weights& weights, int threads) {
+  Level coarse = with_room(std::max(1, fine.width / 2), std::max(1, fine.height / 2));
+  Weights coarse_weights(coarse.texels.size() / 4);
   const std::vector<BoxShares> columns = box_shares(fine.width, coarse.width),
                                rows = box_shares(fine.height, coarse.height);
   parallel_for(coarse.height, grain, threads, [&](std::int64_t first, std::int64_t last) {
     for (auto y = static_cast<size_t>(first); y < static_cast<size_t>(last); ++y) {
       for (size_t x = 0; x < columns.size(); ++x) {
-        Lanes sum{};
+        BoxMean box;
+        bool all_seen = true;
         for (size_t j = 0; j < 4; ++j) {
           for (size_t i = 0; i < 4 && rows[y].weights[j] > 0; ++i) {
-            const float weight = rows[y].weights[j] * columns[x].weights[i];
-            if (weight == 0) continue;
-            const auto row = static_cast<size_t>(rows[y].first) + j;
-            sum += weight * texel_at(fine, row * static_cast<size_t>(fine.width) +
-                                               static_cast<size_t>(columns[x].first) + i);
+            const float share = rows[y].weights[j] * columns[x].weights[i];
+            if (share == 0) continue;
+            const size_t texel =
+                (static_cast<size_t>(rows[y].first) + j) * static_cast<size_t>(fine.width) +
+                static_cast<size_t>(columns[x].first) + i;
+            const float weight = weights[texel];
+            all_seen = all_seen && weight == 1;
+            box.add(share, weight, texel_at(fine, texel));
           }
         }
-        for (size_t c = 0; c < 4; ++c) {
-          coarse.texels[4 * (y * columns.size() + x) + c] = stored(sum[c] / full);
-        }
+        const size_t texel = y * columns.size() + x;
+        coarse_weights.of(texel) = all_seen ? 1 : box.weight;
+        const Lanes mean = box.mean(all_seen);
+        for (size_t c = 0; c < 4; ++c) coarse.texels[4 * texel + c] = stored(mean[c] / full);
       }
     }
   });
-  return coarse;
+  return {std::move(coarse), std::move(coarse_weights)};
+}
+
+/// What nobody sees takes the colour of the coarser texel that it lies in.
+void fill_unseen(Level& fine, const Weights& weights, const Level& coarse, int threads) {
+  const auto width = static_cast<size_t>(fine.width), height = static_cast<size_t>(fine.height);
+  const auto coarse_width = static_cast<size_t>(coarse.width);
+  parallel_for(fine.height, grain, threads, [&](std::int64_t first, std::int64_t last) {
+    for (auto y = static_cast<size_t>(first); y < static_cast<size_t>(last); ++y) {
+      const size_t row = y * static_cast<size_t>(coarse.height) / height;
+      for (size_t x = 0; x < width; ++x) {
+        if (weights[y * width + x] > 0) continue;
+        const size_t column = x * coarse_width / width;
+        std::copy_n(&coarse.texels[4 * (row * coarse_width + column)], 4,
+                    &fine.texels[4 * (y * width + x)]);
+      }
+    }
+  });
 }
 
 int floor_of(double x) {
   const int truncated = static_cast<int>(x);
   return truncated - (x < truncated);
-}
-
-int wrapped(int i, int size, TextureWrap wrap) {
-  if (wrap == TextureWrap::Clamp) return std::clamp(i, 0, size - 1);
-  const int period = wrap == TextureWrap::Mirror ? 2 * size : size;
-  i %= period;
-  if (i < 0) i += period;
-  return i < size ? i : period - 1 - i;
-}
-
-/// A coordinate such that it and its neighbours in a run make small numbers, the same on the image.
-double near_zero(double x, TextureWrap wrap) {
-  if (wrap == TextureWrap::Repeat) return x - std::floor(x);
-  if (wrap == TextureWrap::Mirror) return x - 2 * std::floor(x / 2);
-  return x;
 }
 
 /// What is no number, as coordinates of files may be, is 0.
@@ -112,6 +161,7 @@ class Sampler {
     x_ = near_zero(line.first[0], texture.wrap_s);
     y_ = near_zero(line.first[1], texture.wrap_t);
     if (filter != TextureFilter::Nearest) measure_footprint();
+    if (half_wide_ > 0 && line.face.seams != 0) measure_face();
     const bool magnified = taps_ == 1 && coarse_share_ == 0 && level_ == 0;
     if (texture.nearest && magnified) filter_ = TextureFilter::Nearest;
   }
@@ -147,6 +197,10 @@ class Sampler {
       return filter_ == TextureFilter::Bicubic ? bicubic(levels_[0], x, y)
                                                : bilinear(levels_[0], x, y);
     }
+    if (const double room = room_within_seams(i); room < half_wide_) {
+      const auto level = static_cast<size_t>(std::ilogb(std::max(1.0, room / reach_of_texels)));
+      return bilinear(levels_[std::min(level, level_)], x, y);
+    }
     Lanes sum{};
     for (int tap = 0; tap < taps_; ++tap) {
       const double along = (tap + 0.5) / taps_ - 0.5;
@@ -169,6 +223,7 @@ class Sampler {
       level_ = levels_.size() - 1;
       return;
     }
+    half_wide_ = wide / 2;
     taps_ = static_cast<int>(
         std::clamp(std::ceil(wide / std::max(narrow, 1.0)), 1.0, double{most_taps}));
     const double level = elementary::log2(std::max({narrow, wide / taps_, 1.0}));
@@ -182,6 +237,30 @@ class Sampler {
     const double length = elementary::hypot(x, y);
     wide_[0] = x / length * wide / w;
     wide_[1] = y / length * wide / h;
+  }
+
+  /// How many texels the corners are from the sides that face them.
+  void measure_face() {
+    const auto& c = line_.face.corners;
+    const double w = levels_[0].width, h = levels_[0].height;
+    const auto x = [&](int k) { return w * c[k % 3][0]; };
+    const auto y = [&](int k) { return h * c[k % 3][1]; };
+    const double twice_area =
+        std::abs((x(1) - x(0)) * (y(2) - y(0)) - (x(2) - x(0)) * (y(1) - y(0)));
+    for (int k = 0; k < 3; ++k) {
+      const double side = elementary::hypot(x(k + 2) - x(k + 1), y(k + 2) - y(k + 1));
+      heights_[k] = side > 0 ? twice_area / side : 0;
+    }
+  }
+
+  /// Texels of the finest level from a sample to the nearest seam of its face.
+  double room_within_seams(int i) const {
+    double room = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < 3; ++k) {
+      if ((line_.face.seams >> k & 1) == 0) continue;
+      room = std::min(room, heights_[k] * (line_.face.first[k] + i * line_.face.step[k]));
+    }
+    return room;
   }
 
   Lanes between_levels(double x, double y) const {
@@ -259,18 +338,26 @@ class Sampler {
   int taps_ = 1;
   size_t level_ = 0;
   float coarse_share_ = 0;
+  double half_wide_ = 0;  // texels; 0: none is smaller than a sample
   double wide_[2] = {0, 0};
+  double heights_[3] = {0, 0, 0};
 };
 
 }  // namespace
 
-TexturePyramid::TexturePyramid(const Image& image, bool linear, int threads)
+TexturePyramid::TexturePyramid(const Image& image, bool linear, int threads, const SeenTexels& seen)
     : has_alpha_(image.channels == 2 || image.channels >= 4) {
   levels_.push_back(finest(image, linear, threads));
+  std::vector<Weights> weights{Weights(seen)};
   while (levels_.back().width > 1 || levels_.back().height > 1) {
-    Level next = halved(levels_.back(), threads);
-    levels_.push_back(std::move(next));
+    WeightedLevel next = halved(levels_.back(), weights.back(), threads);
+    levels_.push_back(std::move(next.level));
+    weights.push_back(std::move(next.weights));
   }
+  const bool any_seen = weights.back()[0] > 0;
+  if (seen.all() || !any_seen) return;
+  for (size_t l = levels_.size() - 1; l-- > 0;)
+    fill_unseen(levels_[l], weights[l], levels_[l + 1], threads);
 }
 
 namespace {

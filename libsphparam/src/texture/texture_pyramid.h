@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "sphparam/image/image.h"
+#include "texture/seen_texels.h"
 #include "texture/source_texture.h"
 
 namespace sphparam {
@@ -13,8 +14,11 @@ namespace sphparam {
 class TexturePyramid {
  public:
   /// Channels: 1 (grey), 2 (grey, alpha), 3 or 4, more are dropped; values in [0, 1], sRGB unless
-  /// `linear`. Requires: at least one texel. Cost: 11 bytes a texel.
-  explicit TexturePyramid(const Image& image, bool linear = false, int threads = 0);
+  /// `linear`. Means are of the texels `seen` alone; what nobody sees takes the colour of what lies
+  /// near. Requires: at least one texel; `seen` of the image's size, or of all.
+  /// Cost: 11 bytes a texel.
+  explicit TexturePyramid(const Image& image, bool linear = false, int threads = 0,
+                          const SeenTexels& seen = {});
 
   struct Level {
     int width, height;
@@ -33,13 +37,23 @@ class TexturePyramid {
 struct TextureLine {
   double first[2], step[2], below[2];
   int count;
+
+  /// The face that the samples are on, by where its corners look; sample i has the barycentric
+  /// weights first + i·step. Bit k of `seams`: beyond the side that faces corner k the image is of
+  /// another place.
+  struct Face {
+    unsigned seams = 0;
+    double corners[3][2] = {};
+    double first[3] = {}, step[3] = {};
+  } face = {};
 };
 
 /// Linear red, green, blue and, of 4 channels, alpha of each sample, times the factor, to
 /// values[0 … channels·count).
 ///
 /// What a sample covers, the parallelogram of `step` and `below`, chooses the levels: linear
-/// between two of them by its narrow side, several samples along its wide one, at most 16. Where
+/// between two of them by its narrow side, several samples along its wide one, at most 16. Nearer
+/// to a seam than half of that one sample does, of a level whose texels do not reach beyond. Where
 /// texels are larger than samples the filter is as asked for, but `Nearest` for textures that want
 /// it; `Nearest` that is asked for always looks up one texel.
 void sample_texture(const SourceTexture& texture, TextureFilter filter, const TextureLine& line,

@@ -25,7 +25,7 @@ constexpr int most_layers = 16;           // behind one another
 struct Painter {
   std::vector<SourceTexture> textures;
   std::vector<int> texture_of;  // a face; −1: white; empty: the first texture for all
-  CornerTexcoords corners;
+  SeamedTexcoords corners;
   TextureFilter filter;
   std::vector<bool> is_opaque;           // a texture: its alpha means nothing; empty: none is
   std::optional<CornerLight> colours;    // of the vertices, that multiply the texture
@@ -186,21 +186,25 @@ bool has_alpha(const Painter& painter) {
   return false;
 }
 
+/// By which faces have one texture or another; null: all have the same.
+const Property* material_of(const BakeSource& source) {
+  return source.one_texture_for_all ? nullptr : source.file().find_face_property("material");
+}
+
 void place_textures(const BakeScene& scene, Painter& painter) {
   const MeshFile& file = scene.source.file();
   painter.textures = scene.source.textures;
   painter.filter = scene.options.filter;
   painter.triangles = &file.mesh.triangles;
   if (auto corners = texcoords_of(file)) {
-    painter.corners = std::move(*corners);
+    painter.corners = seamed(file.mesh.triangles, std::move(*corners), material_of(scene.source));
   } else if (any_image(painter.textures)) {
     const bool own = !scene.source.one_texture_for_all;
     throw FieldError(
         std::string("basecolor: the mesh has no texture coordinates, so its texture has no place") +
         (own ? leaves_images_out : ""));
   }
-  if (const Property* material = file.find_face_property("material");
-      material && !scene.source.one_texture_for_all) {
+  if (const Property* material = material_of(scene.source)) {
     painter.texture_of.assign(material->values.begin(), material->values.end());
   }
 }

@@ -20,10 +20,10 @@ namespace {
 /// What a lookup needs of a mesh: which material and which coordinates a face has.
 struct MaterialPlaces {
   std::vector<int> material_of;  // a face; −1: none
-  CornerTexcoords corners, second_corners;
+  SeamedTexcoords corners, second_corners;
   TextureFilter filter;
 
-  const CornerTexcoords& corners_of(const SourceTexture& texture) const {
+  const SeamedTexcoords& corners_of(const SourceTexture& texture) const {
     return texture.second ? second_corners : corners;
   }
 };
@@ -32,11 +32,14 @@ std::shared_ptr<const MaterialPlaces> places_of(const BakeScene& scene) {
   const MeshFile& file = scene.source.file();
   auto places = std::make_shared<MaterialPlaces>();
   places->material_of.assign(static_cast<size_t>(file.mesh.face_count()), -1);
-  if (const Property* material = file.find_face_property("material"))
+  const Property* const material = file.find_face_property("material");
+  if (material)
     std::ranges::transform(material->values, places->material_of.begin(),
                            [](double id) { return static_cast<int>(id); });
-  if (auto corners = texcoords_of(file)) places->corners = std::move(*corners);
-  if (file.second_texcoords) places->second_corners = *file.second_texcoords;
+  if (auto corners = texcoords_of(file))
+    places->corners = seamed(file.mesh.triangles, std::move(*corners), material);
+  if (file.second_texcoords)
+    places->second_corners = seamed(file.mesh.triangles, *file.second_texcoords, material);
   places->filter = scene.options.filter;
   return places;
 }

@@ -70,7 +70,7 @@ struct SourceNormal::Maps {
   std::vector<SourceTexture> textures;  // a material
   std::vector<double> scales;
   std::vector<int> material_of;  // a face
-  CornerTexcoords corners, second_corners;
+  SeamedTexcoords corners, second_corners;
   SourceTangents frame;
 };
 
@@ -86,7 +86,7 @@ SourceNormal::SourceNormal(const BakeScene& scene) : scene_(&scene) {
             "normals: the mesh has no texture coordinates, so its normal map has no place") +
         leaves_images_out);
   }
-  maps->corners = std::move(*corners);
+  maps->corners = seamed(file.mesh.triangles, std::move(*corners), material);
   maps->textures =
       TextureReader(file, TexelKind::Number, scene.threads).read(&MaterialChannels::normal);
   for (SourceTexture& texture : maps->textures) {
@@ -94,9 +94,10 @@ SourceNormal::SourceNormal(const BakeScene& scene) : scene_(&scene) {
     texture.factor = {1, 1, 1, 1};
   }
   maps->material_of.assign(material->values.begin(), material->values.end());
-  if (file.second_texcoords) maps->second_corners = *file.second_texcoords;
+  if (file.second_texcoords)
+    maps->second_corners = seamed(file.mesh.triangles, *file.second_texcoords, material);
   maps->frame = source_tangents(file, scene.source.normals,
-                                placed(file, maps->corners, maps->second_corners));
+                                placed(file, maps->corners.corners, maps->second_corners.corners));
   take_own_tangents(file, maps->frame);
   maps_ = std::move(maps);
 }

@@ -5,10 +5,12 @@
 
 namespace sphparam {
 
-TextureLine texture_line(const SurfaceRun& run, const CornerTexcoords& corners,
+TextureLine texture_line(const SurfaceRun& run, const SeamedTexcoords& texcoords,
                          const TexturePlacement& placement) {
   TextureLine line{{0, 1}, {0, 0}, {0, 0}, run.count};
+  const CornerTexcoords& corners = texcoords.corners;
   if (corners.rows() == 0) return line;
+  line.face.seams = texcoords.seams_of(run.face);
   line.first[0] = placement[0][2];
   line.first[1] = 1 - placement[1][2];
   for (int k = 0; k < 3; ++k) {
@@ -20,7 +22,10 @@ TextureLine texture_line(const SurfaceRun& run, const CornerTexcoords& corners,
       line.first[c] += run.first[k] * xy[c];
       line.step[c] += run.step[k] * xy[c];
       line.below[c] += run.below[k] * xy[c];
+      line.face.corners[k][c] = xy[c];
     }
+    line.face.first[k] = run.first[k];
+    line.face.step[k] = run.step[k];
   }
   return line;
 }
