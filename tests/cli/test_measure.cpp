@@ -132,18 +132,50 @@ TEST_CASE("measure: a glTF file that export has turned is told of, one that it h
     CHECK(ended.code == 0);
     return ended.err;
   };
-  const std::string turned = said({});
-  CHECK_THAT(turned, Contains("y points up in limb.glb, which is glTF") &&
-                         Contains("`sphparam export " + folder / "limb.obj" +
-                                  " --up y -o limb_as_it_stands.glb`"));
-  const std::string measured = bytes_of(folder / "limb.glb");
-  CHECK(type_advice(turned, folder / ".") == 1);
-  CHECK(bytes_of(folder / "limb.glb") == measured);
-  CHECK_THAT(sphparam_program({"measure", folder / "limb_as_it_stands.glb", folder / "limb.obj",
-                               "--samples", "2000"})
-                 .err,
-             !Contains("glTF"));
+  CHECK_THAT(said({}), Contains("y points up in limb.glb, which is glTF, and in limb.obj nothing "
+                                "says what does: they may be turned; --upright measures them"));
+  const Ended upright = sphparam_program({"measure", folder / "limb.glb", folder / "limb.obj",
+                                          "--samples", "2000", "--upright", "--json", "-"});
+  CHECK_THAT(upright.err, Contains("limb.obj is turned as limb.glb stands: z, which is up, to y, "
+                                   "and -y, the front, to z"));
+  const Json report = Json::parse(upright.out);
+  CHECK(report["upright"] == true);
+  CHECK(report["two_sided"]["max"] < 1e-6);  // numbers of 32 bits
   CHECK_THAT(said({"--up", "y"}), !Contains("glTF"));
+}
+
+TEST_CASE("measure: files that say how they stand are told to stand otherwise, or taken upright") {
+  const Folder folder;
+  const auto file = [&](const char* name, const Eigen::RowVector3d& far, const char* comments) {
+    std::string text =
+        "ply\nformat ascii 1.0\n" + std::string(comments) +
+        "element vertex 3\nproperty double x\nproperty double y\nproperty double z\n"
+        "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n";
+    for (const Eigen::RowVector3d& place : {far, Eigen::RowVector3d(far.z(), 1, far.x())}) {
+      for (const double x : place) text += std::to_string(x) + " ";
+      text += "\n";
+    }
+    write_bytes(folder / name, text + "3 0 1 2\n");
+    return folder / name;
+  };
+  const char* y_up = "comment up axis y\ncomment front axis -z\n";
+  const std::string a = file("a.ply", {1, 2, 3}, y_up);
+  const std::string same = file("same.ply", {1, 2, 4}, y_up);
+  // Half a turn about y: its corners are those of a where they stand.
+  const std::string b = file("b.ply", {-1, 2, -3}, "comment up axis y\ncomment front axis z\n");
+  const auto measured = [&](const std::string& other, const char* option) {
+    const Ended ended = sphparam_program({"measure", a, other, option, "--json", "-"});
+    REQUIRE(ended.code == 0);
+    return ended;
+  };
+  CHECK_THAT(measured(b, "--samples=2000").err,
+             Contains("-z looks at who sees a.ply, and in b.ply z does: they may be turned; "
+                      "--upright measures them as they stand"));
+  CHECK_THAT(measured(same, "--samples=2000").err, !Contains("turned"));
+  CHECK_THAT(measured(file("raw.ply", {-1, 2, -3}, ""), "--samples=2000").err, !Contains("turned"));
+  const Ended upright = measured(b, "--upright");
+  CHECK_THAT(upright.err, !Contains("may be turned") && Contains("z, the front, to -z"));
+  CHECK(Json::parse(upright.out)["first_to_second"]["max"] == 0.0);
 }
 
 TEST_CASE("measure: a body that is nearly round is told of as well where glTF has turned it") {

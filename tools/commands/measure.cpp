@@ -8,7 +8,6 @@
 #include "commands/command.h"
 #include "commands/surfaces.h"
 #include "console/places.h"
-#include "io/shell_word.h"
 #include "number_text.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/mesh_writer.h"
@@ -43,6 +42,7 @@ struct MeasureArguments : CommonArguments {
   std::string sampled = "faces";
   std::string per_vertex;
   RepairArguments repair;                       // of both
+  bool upright = false;                         // as their files say what is up
   std::optional<Amount> max_rms, max_distance;  // % of the diagonal of the first's bounding box
 };
 
@@ -91,48 +91,82 @@ std::vector<DistanceLimit> judge(const MeasureArguments& arguments,
   return limits;
 }
 
-/// Whether they are much nearer to one another as glTF has what stands as the other file says.
-bool is_nearer_turned(const MeshFile& gltf, const MeshFile& other, double rms,
+Eigen::Matrix3d stance(const MeshFile& file) { return upright_rotation(upright_axes(file)); }
+
+/// Turned so that it stands in the other's coordinates as it says it does in its own.
+TriangleMesh turned_as(const MeshFile& other, const MeshFile& file) {
+  TriangleMesh mesh = file.mesh;
+  mesh.positions *= stance(file).transpose() * stance(other);
+  return mesh;
+}
+
+/// Whether they are much nearer to one another as they stand.
+bool is_nearer_turned(const MeshFile& first, const MeshFile& second, double rms,
                       const MeasureArguments& arguments, Session& session) {
   constexpr double much = 0.5;
   constexpr std::int64_t enough = 10'000;
-  TriangleMesh turned = other.mesh;
-  turned.positions *= upright_rotation(upright_axes(other)).transpose();
   DistanceOptions options = arguments.options;
   options.samples = std::min(options.samples, enough);
   options.extremes = false;
   options.deviations = false;
   options.threads = session.threads();
-  return measure_distance(gltf.mesh, turned, options).rms() <= much * rms;
+  return measure_distance(first.mesh, turned_as(first, second), options).rms() <= much * rms;
 }
 
-/// y points up in glTF, so whatever writes it turns a mesh in which z does: apart for that alone.
-/// A body that is nearly round is not far from itself as it is turned.
+bool is_gltf(const MeshFile& file) { return file.format.starts_with("glTF"); }
+
+/// y points up in glTF, so whatever writes it turns a mesh in which z does. What says nothing may
+/// stand in any way, but most has z up.
+bool say_otherwise(const MeshFile& first, const MeshFile& second) {
+  const auto says = [](const MeshFile& file) { return noted_up(file).direction.has_value(); };
+  const bool is_said = (says(first) && says(second)) || is_gltf(first) || is_gltf(second);
+  return is_said && stance(first) != stance(second);
+}
+
+/// How the first of two stands, and the second otherwise: "y points up in a.glb, which is glTF, and
+/// in b.ply z does".
+std::string words_of_stances(const std::string& name, const MeshFile& file,
+                             const std::string& other_name, const MeshFile& other) {
+  const UprightAxes one = upright_axes(file), two = upright_axes(other);
+  const bool by_front = one.up == two.up;
+  const Up said = noted_up(other);
+  const bool is_said = (by_front ? said.front : said.direction) || is_gltf(other);
+  return name_of_direction(by_front ? one.front : one.up) +
+         (by_front ? " looks at who sees " : " points up in ") + name +
+         (is_gltf(file) ? ", which is glTF, and in " : ", and in ") + other_name + " " +
+         (is_said ? name_of_direction(by_front ? two.front : two.up) + " does"
+                  : "nothing says what does");
+}
+
+/// Apart for how they stand alone? A body that is nearly round is not far from itself as it is
+/// turned.
 void tell_turned(const MeasureArguments& arguments, const MeshFile& first, const MeshFile& second,
                  const SurfaceDistance& distance, Session& session) {
   constexpr double far = 0.01, near = 1e-4;  // of the diagonal
-  const auto is_gltf = [](const MeshFile& file) { return file.format.starts_with("glTF"); };
-  if (is_gltf(first) == is_gltf(second)) return;
-  const bool first_is_gltf = is_gltf(first);
-  const MeshFile& not_gltf = first_is_gltf ? second : first;
-  const std::optional<Vector3> up = noted_up(not_gltf).direction;
-  if (up && *up == Vector3::UnitY()) return;
+  if (!say_otherwise(first, second)) return;
   const double apart = distance.rms() / distance.diagonal_first;
   if (apart < near) return;
-  if (apart < far && !is_nearer_turned(first_is_gltf ? first : second, not_gltf, distance.rms(),
-                                       arguments, session))
-    return;
+  if (apart < far && !is_nearer_turned(first, second, distance.rms(), arguments, session)) return;
   const std::string a = display_name(arguments.first), b = display_name(arguments.second);
-  const std::string& gltf = first_is_gltf ? a : b;
-  const std::string& other = first_is_gltf ? b : a;
-  const std::string& path = first_is_gltf ? arguments.second : arguments.first;
-  const std::string typed = is_stream(path) ? "FILE" : shell_file(path);
-  // A new name: what was measured stays what it is.
-  const std::string output = (is_stream(path) ? "mesh" : stem_of(path)) + "_as_it_stands.glb";
-  session.console.say("  y points up in " + gltf + ", which is glTF, and in " + other + " " +
-                      (up ? name_of_direction(*up) + " does" : "nothing says what does") +
-                      ": they may be turned; `sphparam export " + typed + " --up y -o " +
-                      shell_file(output) + "` writes it as it stands");
+  const bool in_order = is_gltf(first) || !is_gltf(second);
+  session.console.say(
+      "  " +
+      (in_order ? words_of_stances(a, first, b, second) : words_of_stances(b, second, a, first)) +
+      ": they may be turned; --upright measures them as they stand");
+}
+
+/// The second as it stands beside the first, where that is wanted, which is told.
+MeshFile placed(const MeasureArguments& arguments, const MeshFile& first, MeshFile second,
+                Session& session) {
+  if (!arguments.upright || stance(first) == stance(second)) return second;
+  second.mesh = turned_as(first, second);
+  const UprightAxes axes = upright_axes(second), seen = upright_axes(first);
+  session.console.say("  " + display_name(arguments.second) + " is turned as " +
+                      display_name(arguments.first) + " stands: " + name_of_direction(axes.up) +
+                      ", which is up, to " + name_of_direction(seen.up) + ", and " +
+                      name_of_direction(axes.front) + ", the front, to " +
+                      name_of_direction(seen.front));
+  return second;
 }
 
 /// A with each vertex's distance to B, and the side, where that is wanted.
@@ -166,16 +200,18 @@ int run_measure(MeasureArguments& arguments) {
   settle_sampled(arguments.sampled, arguments.options);
   require_sensible(arguments);
   const MeshFile first = read_surface(arguments.first, arguments.repair, session);
-  const MeshFile second = read_surface(arguments.second, arguments.repair, session);
+  const MeshFile second =
+      placed(arguments, first, read_surface(arguments.second, arguments.repair, session), session);
   session.hold_signals();
   const SurfaceDistance distance = measure(arguments, first, second, session);
-  tell_turned(arguments, first, second, distance, session);
+  if (!arguments.upright) tell_turned(arguments, first, second, distance, session);
   DistanceRecord record = {.first = arguments.first,
                            .second = arguments.second,
                            .first_file = first,
                            .second_file = second,
                            .options = arguments.options,
                            .distance = distance,
+                           .upright = arguments.upright,
                            .limits = judge(arguments, distance)};
   if (!arguments.per_vertex.empty()) {
     session.files.add(
@@ -215,6 +251,9 @@ void declare_options(Declaration& command, MeasureArguments& arguments) {
       .flag("--signed", options.deviations,
             "Also on which side of B, a closed surface, A is: distances less than 0 inside; in "
             "--per-vertex as property deviation, and the colours")
+      .flag("--upright", arguments.upright,
+            "B turned as A stands, by what their files say is up and in front: y and z in glTF; z "
+            "and -y where nothing says")
       .json(arguments);
   declare_length(command, "--max-rms", arguments.max_rms,
                  "Exit with status 6 if the larger RMS is more; % of A's diagonal");

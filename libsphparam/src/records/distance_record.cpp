@@ -108,6 +108,7 @@ std::string to_json(const DistanceRecord& record) {
                   {"first", mesh_json(record.first, record.first_file, first)},
                   {"second", mesh_json(record.second, record.second_file, second)},
                   {"sampled", sampled_json(record.options)},
+                  {"upright", record.upright},
                   {"first_to_second", forth_json(distance)},
                   {"second_to_first", side_json(distance.back, second, first, first)},
                   {"two_sided",

@@ -24,6 +24,7 @@ struct DistanceRecord {
   const MeshFile& second_file;
   const DistanceOptions& options;
   const SurfaceDistance& distance;
+  bool upright = false;  // the second was turned as the first stands, by what their files say
   std::vector<DistanceLimit> limits = {};
   std::vector<std::pair<std::string, std::string>> outputs = {};  // what it is, where it is
   double seconds = 0;
