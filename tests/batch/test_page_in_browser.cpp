@@ -44,6 +44,9 @@ addEventListener('load', async () => {
   tell('repaired', names().join() === 'i0555', names().join());
   tell('repairs', document.querySelector('.badge.repaired').textContent === 'repaired' &&
       document.querySelector('.card').textContent.includes('hole-filled 1; handle-cut 2'), '');
+  set('[data-key=which]', 'wrapped', 'change');
+  tell('wrapped', names().join() === 'i0666' &&
+      document.querySelector('.badge.repaired').textContent === 'wrapped', names().join());
   set('[data-key=which]', 'warned', 'change');
   tell('warned', names().join() === 'i0444' &&
       document.querySelector('.card').textContent.includes('warning: m.ply is <turned>'), '');
@@ -81,6 +84,7 @@ BatchPlan write_batch(const fs::path& folder) {
     if (failed) record.head.code = 4, record.head.reason = "a <hole>";
     if (i == 444) record.head.warnings = {"/m.ply is <turned>"};
     if (i == 555) record.head.repairs = "hole-filled 1; handle-cut 2";
+    if (i == 666) record.head.repairs = "wrapped 1";
     const double area = i == 777 ? 9 : 0.2 + 0.0001 * i;
     record.steps.push_back({{"map"},
                             0,

@@ -158,6 +158,50 @@ TEST_CASE("asset: with --up and --front the map stands as the asset does, a wrap
   CHECK_THAT(clash.err, Contains("--front: the front, z"));
 }
 
+TEST_CASE("asset: what folds as 16-bit numbers is counted in the report as it is warned of") {
+  const Folder folder;
+  const std::string mesh = folder / "grown.obj";
+  TriangleMesh grown = icosphere(4);
+  // One vertex far out: triangles at it are smaller than a step of 16 bits.
+  grown.positions.row(0) *= 1e7;
+  write_bytes(mesh, obj_text(grown));
+  const Ended ended = sphparam_program({"asset", mesh, "-o", folder / "made", "--size", "64",
+                                        "--no-page", "--compress", "--json", "-"});
+  REQUIRE(ended.code == 0);
+  const nlohmann::json report = nlohmann::json::parse(ended.out);
+  INFO(ended.err);
+  CHECK(report["folds_as_stored"] == 2);
+}
+
+TEST_CASE("asset: a batch of some says which were mended and wrapped, and how they are distorted") {
+  const Folder folder;
+  fs::create_directory(folder / "in");
+  TriangleMesh open = icosphere(2);
+  open.triangles.conservativeResize(open.face_count() - 1, 3);
+  write_bytes(folder / "in/ball.obj", obj_text(icosphere(2)));
+  write_bytes(folder / "in/open.obj", obj_text(open));
+  write_bytes(folder / "in/two.obj", obj_text(joined(icosphere(2), icosphere(2), {1, 0, 0})));
+  const std::string work = folder / "work";
+  REQUIRE(sphparam_program({"batch", "plan", folder / "in", "-o", work, "--chunk", "1", "--",
+                            "asset", "{input}", "-o", "made", "--size", "64", "--no-page",
+                            "--resolution", "16", "--faces", "500"})
+              .code == 0);
+  REQUIRE(sphparam_program({"batch", "run", work}).code == 0);
+  const auto record = [&](const std::string& id) {
+    return nlohmann::json::parse(bytes_of(work + "/results/" + id + "/record.json"));
+  };
+  CHECK(record("ball")["repairs"] == "");
+  CHECK(record("open")["repairs"] == "hole-filled 1");
+  CHECK(record("two")["repairs"] == "wrapped 1");
+  const nlohmann::json ball = record("ball")["steps"][0]["report"];
+  CHECK(ball["vertices"] == 162);
+  CHECK(ball["distortion"]["mean_abs_ln_area"] > 0);
+  CHECK_THAT(sphparam_program({"batch", "status", work}).out,
+             Contains("of the done: 3 certified one-to-one, 1 repaired, 1 wrapped"));
+  REQUIRE(sphparam_program({"batch", "report", work, "-o", folder / "all.html"}).code == 0);
+  CHECK_THAT(bytes_of(folder / "all.html"), !Contains("no values"));
+}
+
 TEST_CASE("asset: what cannot be done is said, and leaves no folder") {
   const Folder folder;
   const std::string mesh = folder / "a.obj", out = folder / "made";

@@ -7,6 +7,7 @@
 #include "records/json_parts.h"
 #include "sphparam/asset/remake_asset.h"
 #include "sphparam/io/losses.h"
+#include "sphparam/sphere/distortion.h"
 #include "sphparam/version.h"
 
 namespace sphparam {
@@ -25,6 +26,17 @@ Json projection_json(const std::optional<ProjectionShares>& shares) {
           {"nearest", shares->nearest},
           {"median_distance", shares->median},
           {"farthest", shares->farthest}};
+}
+
+/// A wrap is told as repairs are, so that who counts them finds it.
+Json mending_json(const WholeSurface& whole) {
+  Json repairs = repairs_json(whole.repairs);
+  if (whole.by == WholeBy::Wrap)
+    repairs.push_back({{"kind", "wrapped"},
+                       {"count", 1},
+                       {"first", Json::array()},
+                       {"message", whole.done.front()}});
+  return repairs;
 }
 
 Json stages(const std::vector<std::pair<std::string, double>>& seconds) {
@@ -47,6 +59,8 @@ std::string verdict_of(const RemadeAsset& remade) {
 std::string to_json(const MeshSource& asset, const RemadeAsset& remade) {
   Json files = Json::array();
   for (const auto& [name, size] : remade.files) files.push_back(name);
+  const MappedMesh& mapped = remade.whole.mapped;
+  const Distortion distortion = measure_distortion(mapped.surface(), mapped.map(), 1);
   return text_of(
       {{"sphparam", version},
        {"command", "asset"},
@@ -56,13 +70,16 @@ std::string to_json(const MeshSource& asset, const RemadeAsset& remade) {
        {"found", remade.whole.found},
        {"done", remade.whole.done},
        {"details", remade.whole.details},
-       {"certificate", certificate_json(remade.whole.mapped.certificate())},
-       {"triangles", remade.whole.mapped.mesh().face_count()},
+       {"repairs", mending_json(remade.whole)},
+       {"certificate", certificate_json(mapped.certificate())},
+       {"distortion", distortion_json(summarise(distortion, 1))},
+       {"vertices", mapped.mesh().vertex_count()},
+       {"triangles", mapped.mesh().face_count()},
        {"chart", {{"triangles", remade.chart.triangles}, {"vertices", remade.chart.vertices}}},
        {"images", images_json(remade.baked.images)},
        {"textures", textures_json(remade.textures)},
        {"from", projection_json(remade.baked.projection)},
-       {"folds_as_stored", remade.chart.stored.inverted.size()},
+       {"folds_as_stored", remade.chart.stored.folded.size()},
        {"warnings", remade.warnings},
        {"losses", losses_among(asset.file.notes)},
        {"files", files},

@@ -145,7 +145,9 @@ class Chooser {
       done_.push_back(plain_words(action));
       details_.push_back(action.message);
     }
-    return whole(*std::move(mapped), WholeBy::Repair, trial.parts.area_share);
+    WholeSurface made = whole(*std::move(mapped), WholeBy::Repair, trial.parts.area_share);
+    made.repairs = trial.actions;
+    return made;
   }
 
   WholeSurface wrapped() {

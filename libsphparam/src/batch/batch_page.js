@@ -15,6 +15,7 @@
   const number = value => value === null ? '–' : value.toLocaleString('en');
   const down = column => (a, b) => (b[column] ?? -Infinity) - (a[column] ?? -Infinity);
 
+  const wrapped = row => row[REPAIRS].includes('wrapped');
   const trouble = row => row[OUTCOME] === 'failed' ? 1 : 0;
   const orders = {
     outliers: ['outliers first', (a, b) => down(OUT)(a, b)],
@@ -31,7 +32,8 @@
     outliers: ['outliers', row => row[OUT] > farOut],
     certified: ['certified', row => row[OUTCOME] === 'certified'],
     done: ['done, without a map', row => row[OUTCOME] === 'done'],
-    repaired: ['repaired', row => row[REPAIRS] !== ''],
+    repaired: ['repaired', row => row[REPAIRS] !== '' && row[REPAIRS] !== 'wrapped 1'],
+    wrapped: ['wrapped', row => wrapped(row)],
     warned: ['with warnings', row => row[WARNINGS].length > 0],
     failed: ['failed', row => row[OUTCOME] === 'failed'],
     open: ['not run', row => row[OUTCOME] === 'open'],
@@ -95,7 +97,8 @@
         picture(row), element('h3', {}, row[ID]),
         element('span', {class: 'badge ' + row[OUTCOME]}, row[OUTCOME]));
     if (row[OUT] > farOut) made.append(' ', element('span', {class: 'badge out'}, 'outlier'));
-    if (row[REPAIRS]) made.append(' ', element('span', {class: 'badge repaired'}, 'repaired'));
+    if (row[REPAIRS]) made.append(' ', element('span', {class: 'badge repaired'},
+        wrapped(row) ? 'wrapped' : 'repaired'));
     made.append(facts(row));
     if (row[REPAIRS]) made.append(element('p', {}, row[REPAIRS]));
     for (const warning of row[WARNINGS]) made.append(element('p', {}, `warning: ${warning}`));

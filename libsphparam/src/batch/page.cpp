@@ -58,6 +58,8 @@ void take_figures(const Json& report, Shape& shape) {
   take(shape.angle, "distortion", "mean_abs_ln_angle");
   take(shape.within_two, "distortion", "area_within_two");
   take(shape.vertices, "inspection", "vertices");
+  if (report.value("command", "") == "asset" && !shape.vertices && report.contains("vertices"))
+    shape.vertices = report["vertices"].get<double>();
 }
 
 Shape shape_of(const std::string& folder, const BatchItem& item) {
@@ -174,6 +176,7 @@ void add_counts(Page& page, const BatchStatus& status, const std::vector<Shape>&
                     {"certified", grouped(certified)},
                     {"done, without a map", grouped(static_cast<long>(status.done) - certified)},
                     {"repaired", grouped(static_cast<long>(status.repaired))},
+                    {"wrapped", grouped(static_cast<long>(status.wrapped))},
                     {"with warnings", grouped(static_cast<long>(status.warned))},
                     {"failed", grouped(static_cast<long>(status.failed))},
                     {"CPU time", duration(cpu)}});

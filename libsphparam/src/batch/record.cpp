@@ -24,6 +24,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t longest_list = 32;
+constexpr std::string_view wrap_words = "wrapped 1";
 constexpr std::string_view last_of_record = "}\n";
 
 const char* name_of(BatchOutcome outcome) {
@@ -249,6 +250,12 @@ std::optional<StoredRecord> record_about(const std::string& folder, const BatchI
   }
   return latest;
 }
+
+bool is_wrapped(const std::string& repairs) {
+  return repairs.find(wrap_words) != std::string::npos;
+}
+
+bool is_repaired(const std::string& repairs) { return !repairs.empty() && repairs != wrap_words; }
 
 std::string without_folders(std::string reason, const BatchItem& item) {
   const std::string name = fs::path(item.path).filename().string();

@@ -80,6 +80,10 @@ std::optional<StoredRecord> record_about(const std::string& folder, const BatchI
 std::string result_folder(const std::string& folder, const std::string& id);
 std::string failure_path(const std::string& folder, const std::string& id);
 
+/// Of the repairs of a record: is a surface about the mesh instead of it; was the mesh mended.
+bool is_wrapped(const std::string& repairs);
+bool is_repaired(const std::string& repairs);
+
 /// A reason as people read it: the input by its name alone.
 std::string without_folders(std::string reason, const BatchItem& item);
 

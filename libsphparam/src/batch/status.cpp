@@ -97,6 +97,7 @@ std::string done_text(const BatchStatus& status) {
   if (status.certified > 0)
     told.push_back(std::to_string(status.certified) + " certified one-to-one");
   if (status.repaired > 0) told.push_back(std::to_string(status.repaired) + " repaired");
+  if (status.wrapped > 0) told.push_back(std::to_string(status.wrapped) + " wrapped");
   if (status.warned > 0) told.push_back(std::to_string(status.warned) + " with warnings");
   return told.empty() ? "" : "  of the done: " + joined(told) + "\n";
 }
@@ -130,7 +131,8 @@ BatchStatus batch_status(const std::string& folder, const BatchPlan& plan, int t
     if (!head) continue;
     ++(head->failed() ? status.failed : status.done);
     status.certified += head->outcome == BatchOutcome::Certified;
-    status.repaired += !head->failed() && !head->repairs.empty();
+    status.repaired += !head->failed() && is_repaired(head->repairs);
+    status.wrapped += !head->failed() && is_wrapped(head->repairs);
     status.warned += !head->failed() && !head->warnings.empty();
     status.to_retry += head->retry;
   }
@@ -188,6 +190,7 @@ std::string to_json(const BatchStatus& status) {
       {"done", status.done},
       {"certified", status.certified},
       {"repaired", status.repaired},
+      {"wrapped", status.wrapped},
       {"warned", status.warned},
       {"failed", status.failed},
       {"to_retry", status.to_retry},

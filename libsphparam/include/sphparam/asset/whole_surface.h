@@ -5,6 +5,7 @@
 
 #include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/mesh_source.h"
+#include "sphparam/mesh/mesh_repair.h"
 #include "sphparam/progress.h"
 
 namespace sphparam {
@@ -35,7 +36,8 @@ struct WholeSurface {
   double area_kept = 1;                 // of the asset's; a wrap keeps all of it inside
   std::vector<std::string> found = {};  // what stood in the way, in an artist's words, a line each
   std::vector<std::string> done = {};   // what repair did, or how it was wrapped; so too
-  std::vector<std::string> details = {};  // both again with all figures, and where
+  std::vector<std::string> details = {};   // both again with all figures, and where
+  std::vector<RepairAction> repairs = {};  // where repair made it whole
 };
 
 /// The surface of an asset: itself, where it can be mapped as it is; mended by what repair does

@@ -25,6 +25,7 @@ struct BatchStatus {
   std::size_t done = 0, failed = 0;
   std::size_t certified = 0;    // of the done: a map is proved one-to-one
   std::size_t repaired = 0;     // of the done: their meshes were mended
+  std::size_t wrapped = 0;      // of the done: `asset` drew a surface about them instead
   std::size_t warned = 0;       // of the done: a step warned of something
   std::size_t to_retry = 0;     // of the failed: to be tried again
   std::size_t marked_open = 0;  // tasks that Snakemake has for done, of which an item is open
