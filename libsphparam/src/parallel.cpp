@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "most_threads.h"
 #include "sphparam/errors.h"
 #include "sphparam/stopped_by.h"
 
@@ -260,10 +261,18 @@ StoppedBy::StoppedBy(const std::atomic<bool>& stop)
 
 StoppedBy::~StoppedBy() { stop_of_thread() = before_; }
 
+namespace {
+std::atomic<int> most_threads = 0;
+}
+
+void keep_to_threads(int most) { most_threads = most; }
+
 int resolve_threads(int threads) {
   // Asked once: the answer comes from a file, and a map has thousands of loops.
   static const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  return threads > 0 ? threads : cores;
+  if (threads > 0) return threads;
+  const int most = most_threads;
+  return most > 0 ? std::min(most, cores) : cores;
 }
 
 void parallel_for(std::int64_t count, std::int64_t grain, int threads,

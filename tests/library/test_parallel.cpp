@@ -11,6 +11,7 @@
 
 #include "embedding/constructions/gnomonic.h"
 #include "embedding/constructions/grid_lift.h"
+#include "most_threads.h"
 #include "sphparam/chart/spherical_chart.h"
 #include "sphparam/errors.h"
 #include "sphparam/parallel.h"
@@ -38,6 +39,18 @@ bool has_two_threads() {
 }
 
 }  // namespace
+
+TEST_CASE("threads: all cores are as many as the process keeps to, a number is itself") {
+  const int cores = resolve_threads(0);
+  keep_to_threads(1);
+  CHECK(resolve_threads(0) == 1);
+  CHECK(resolve_threads(-3) == 1);
+  CHECK(resolve_threads(5) == 5);
+  keep_to_threads(cores + 7);
+  CHECK(resolve_threads(0) == cores);
+  keep_to_threads(0);
+  CHECK(resolve_threads(0) == cores);
+}
 
 TEST_CASE("parallel: chunks cover the range once, whatever the sizes") {
   for (const int count : {0, 1, 7, 1000, 1001}) {

@@ -1,5 +1,7 @@
 #include "console/session.h"
 
+#include "most_threads.h"
+
 namespace sphparam::cli {
 
 namespace {
@@ -13,7 +15,9 @@ Verbosity verbosity(const CommonArguments& arguments) {
 }  // namespace
 
 Session::Session(const CommonArguments& arguments)
-    : console(verbosity(arguments), arguments.progress), arguments_(arguments) {}
+    : console(verbosity(arguments), arguments.progress), arguments_(arguments) {
+  keep_to_threads(arguments.threads);
+}
 
 Progress Session::progress() {
   return [this](std::string_view stage, double done) { return console.progress(stage, done); };

@@ -36,9 +36,9 @@ void inspect_by_file_numbers(MeshSource& source) {
 }
 
 /// The topology of what can be mapped. Throws MeshRefusal, with what repair would do.
-Topology topology_of(MeshSource& source) {
+Topology topology_of(MeshSource& source, int threads) {
   try {
-    if (!source.topology) return require_sphere(source.file.mesh);
+    if (!source.topology) return require_sphere(source.file.mesh, threads);
     require_sphere(source.file.mesh, *source.topology);
     return std::move(*source.topology);
   } catch (const MeshError&) {
@@ -82,7 +82,7 @@ void by_file_numbers(Parameterization& result, const FileNumbers& numbers) {
 
 Mapped map_mesh(MeshSource source, Request request) {
   ParameterizeOptions& options = request.options;
-  Topology topology = topology_of(source);
+  Topology topology = topology_of(source, options.threads);
   require_area(source);
   settle(request, source.file, topology);
   const Stopwatch stopwatch;
@@ -138,7 +138,7 @@ Mapped with_points(const Source& source, const py::array& rays, int threads) {
   const auto points = std::make_shared<SphereMap>(SphereMap{points_of(rays, finite)});
   return call(py::none(), [=](const Progress&) {
     shorten(points->points);
-    Topology topology = topology_of(*mesh);
+    Topology topology = topology_of(*mesh, threads);
     const Certificate certificate = certify(topology, *points, threads);
     if (!certificate.bijective())
       throw NotOneToOne("the map is not one-to-one: " + verdict(certificate), certificate);
@@ -187,7 +187,7 @@ py::dict certify_points(const Source& source, const py::array& rays, int threads
     try {
       return certify_either_way(mesh->file.mesh, *map, threads);
     } catch (const MeshError&) {
-      return certify(topology_of(*mesh), *map, threads);  // throws, and says what helps
+      return certify(topology_of(*mesh, threads), *map, threads);  // throws, and says what helps
     }
   }));
 }
