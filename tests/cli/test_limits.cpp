@@ -1,8 +1,10 @@
 #include <catch2/catch.hpp>
+#include <cstdlib>
 
 #include "program.h"
 #include "support/test_meshes.h"
 
+using namespace sphparam;
 using namespace sphparam::tests;
 using Catch::Matchers::Contains;
 
@@ -77,6 +79,23 @@ TEST_CASE(
                         folder / "charts/", "--json", folder / "charts/map.json"});
   CHECK(made.code == 0);
   CHECK(fs::exists(folder / "charts/map.json"));
+}
+
+TEST_CASE("limits: a mesh of more parts than files may be open at first is mapped") {
+  constexpr int parts = 100;
+  const Folder folder;
+  const TriangleMesh part = tetrahedron();
+  TriangleMesh many{Points(4 * parts, 3), Triangles(4 * parts, 3)};
+  for (int k = 0; k < parts; ++k) {
+    many.positions.middleRows(4 * k, 4) =
+        part.positions.rowwise() + Eigen::RowVector3d(3 * k, 0, 0);
+    many.triangles.middleRows(4 * k, 4) = (part.triangles.array() + 4 * k).matrix();
+  }
+  write_bytes(folder / "many.obj", obj_text(many));
+  CHECK(std::system(("ulimit -Sn 64 && " + program_file() + " map " + folder / "many.obj" +
+                     " --all-components -q -o " + folder / "m.sph.ply")
+                        .c_str()) == 0);
+  CHECK(folder.names().size() == parts + 1);
 }
 
 TEST_CASE("limits: two spellings of one output are refused before any work") {

@@ -197,6 +197,20 @@ TEST_CASE("safe_file: what a killed process left is removed, what a living one w
   CHECK(folder.names() == std::vector<std::string>{"b"});
 }
 
+TEST_CASE("safe_file: a folder is looked through for the first of many files, not for each") {
+  const Folder folder;
+  PendingFiles many;
+  many.add(folder.file("first"), "x");
+  Writer writer(folder.file("a"));
+  writer.kill();
+  CHECK(folder.names().size() == 2);
+  for (const char* const name : {"second", "third"}) many.add(folder.file(name), "x");
+  CHECK(folder.names().size() == 4);  // what was left since the first stays until all have names
+  many.publish();
+  write_file(folder.file("b"), "x");
+  CHECK(folder.names() == std::vector<std::string>{"b", "first", "second", "third"});
+}
+
 TEST_CASE("safe_file: files of strangers stay, whatever they are called") {
   const Folder folder;
   const std::vector<std::string> strangers = {".sphparam-0123456789abcdef01234567.tmp",

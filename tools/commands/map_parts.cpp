@@ -2,6 +2,8 @@
 
 #include "commands/map_parts.h"
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <exception>
 #include <utility>
@@ -20,6 +22,14 @@
 namespace sphparam::cli {
 
 namespace {
+
+/// Files wait open for their names, of thousands of parts more than most systems begin with.
+void allow_many_files() {
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
+  limit.rlim_cur = limit.rlim_max;
+  ::setrlimit(RLIMIT_NOFILE, &limit);
+}
 
 /// What may be left out of all.
 double least_kept(const MapArguments& arguments) {
@@ -41,6 +51,7 @@ class PartsRun {
       : arguments_(arguments), session_(session), map_(map) {}
 
   int run() {
+    allow_many_files();
     MeshSource source = sphparam::read_source(arguments_.input, limits_for(arguments_.repair));
     attach_data_files(source.file, source.path, arguments_.data, MissingValues::LeftOut, session_);
     mark_ = mark_of(source.file.mesh);

@@ -163,13 +163,9 @@ PendingFiles::Pieces PendingFiles::open(const std::string& path) {
 }
 
 const TemporaryFile* PendingFiles::pending(const std::string& path) const {
-  const auto one_spelling = [](const fs::path& file) {
-    std::error_code hidden;  // relative names that are not there yet would stay relative
-    return fs::weakly_canonical(fs::absolute(file, hidden), hidden);
-  };
-  const fs::path wanted = one_spelling(followed(path));
-  const auto found = std::ranges::find_if(
-      files_, [&](const auto& file) { return one_spelling(file->target()) == wanted; });
+  const std::string wanted = one_spelling(followed(path));
+  const auto found =
+      std::ranges::find_if(files_, [&](const auto& file) { return file->spelling() == wanted; });
   return found == files_.end() ? nullptr : found->get();
 }
 

@@ -9,6 +9,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <map>
+#include <mutex>
 #include <random>
 #include <utility>
 
@@ -146,6 +148,14 @@ void remove_left(const fs::path& folder) {
   }
 }
 
+std::mutex waiting_mutex;
+
+/// How many files of this process wait in which folder.
+std::map<fs::path, int>& waiting() {
+  static std::map<fs::path, int> counts;
+  return counts;
+}
+
 bool has_a_name(int descriptor) {
   struct stat status {};
   return ::fstat(descriptor, &status) != 0 || status.st_nlink > 0;
@@ -153,10 +163,20 @@ bool has_a_name(int descriptor) {
 
 }  // namespace
 
+TemporaryFile::Waiting::Waiting(const fs::path& folder) : folder_(folder) {
+  const std::lock_guard lock(waiting_mutex);
+  if (waiting()[folder_]++ == 0) remove_left(folder_);
+}
+
+TemporaryFile::Waiting::~Waiting() {
+  const std::lock_guard lock(waiting_mutex);
+  const auto place = waiting().find(folder_);
+  if (--place->second == 0) waiting().erase(place);
+}
+
 TemporaryFile::TemporaryFile(fs::path target, const struct stat* replaced)
-    : target_(std::move(target)) {
+    : target_(std::move(target)), spelling_(one_spelling(target_)), waiting_(folder_of(target_)) {
   require_folder(target_);
-  remove_left(folder_of(target_));
   constexpr mode_t usual = 0666, ours = 0600;
   try {
     open(replaced ? ours : usual);
@@ -283,6 +303,11 @@ void sync_folder(const fs::path& folder, const std::string& path) {
   // Some file systems cannot sync a folder and say EINVAL.
   if (uninterrupted([&] { return ::fsync(directory.number()); }) != 0 && errno != EINVAL)
     fail(path, "cannot write to disk");
+}
+
+std::string one_spelling(const fs::path& file) {
+  std::error_code hidden;  // relative names that are not there yet would stay relative
+  return fs::weakly_canonical(fs::absolute(file, hidden), hidden).string();
 }
 
 fs::path folder_of(const fs::path& file) {

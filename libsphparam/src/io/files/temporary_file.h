@@ -23,9 +23,9 @@ namespace sphparam {
 class TemporaryFile {
  public:
   /// Writes `bytes` to the disk (fsync). Removes what processes left in that folder which are no
-  /// more. `replaced`: the file that has the target's name; the new one gets its permissions, and
-  /// as far as the user may give them, its owner, group, ACL and attributes user.*.
-  /// Throws: WriteError that names the target.
+  /// more, unless others of this process wait there, who did. `replaced`: the file that has the
+  /// target's name; the new one gets its permissions, and as far as the user may give them, its
+  /// owner, group, ACL and attributes user.*. Throws: WriteError that names the target.
   TemporaryFile(std::filesystem::path target, std::string_view bytes, const struct stat* replaced);
   /// The same without bytes: they come by `write_at`, until `sync`.
   TemporaryFile(std::filesystem::path target, const struct stat* replaced);
@@ -34,6 +34,8 @@ class TemporaryFile {
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
   const std::filesystem::path& target() const { return target_; }
+  /// The same from the root, its folders without links, however it was named.
+  const std::string& spelling() const { return spelling_; }
   /// Where the bytes are until then.
   const std::string& place() const { return path_; }
   /// Reads the file, whatever its permissions and its name.
@@ -66,7 +68,21 @@ class TemporaryFile {
     Replaced,   // the old file is gone
   };
 
+  /// One who waits in a folder.
+  class Waiting {
+   public:
+    explicit Waiting(const std::filesystem::path& folder);
+    ~Waiting();
+    Waiting(const Waiting&) = delete;
+    Waiting& operator=(const Waiting&) = delete;
+
+   private:
+    std::filesystem::path folder_;
+  };
+
   std::filesystem::path target_;
+  std::string spelling_;
+  Waiting waiting_;
   std::string path_;
   int descriptor_ = -1;  // until `sync`
   int held_ = -1;        // the same open file, with its lock
@@ -86,6 +102,9 @@ void write_directly(const std::string& path, std::string_view bytes);
 
 /// Makes the names of a folder survive a power cut. Throws: WriteError that names `path`.
 void sync_folder(const std::filesystem::path& folder, const std::string& path);
+
+/// A file from the root, its folders without links.
+std::string one_spelling(const std::filesystem::path& file);
 
 /// The folder of a file, "." where none is named.
 std::filesystem::path folder_of(const std::filesystem::path& file);
