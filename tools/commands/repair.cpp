@@ -99,6 +99,7 @@ int run_repair(RepairCommandArguments& arguments) {
   std::ranges::copy(add_mesh(session.files, arguments.output, file, {.origin = arguments.input}),
                     std::back_inserter(losses));
   tell_losses(arguments.output, losses, session.console);
+  for (std::string& loss : losses) loss = output_name(arguments.output) + ": " + loss;
   RepairRecord record = {source, wanted, losses, {{"mesh", arguments.output}}};
   if (const std::string& loops = arguments.repair.loops; !loops.empty()) {
     session.files.add(loops, serialise_loops(loops, source.handles));
