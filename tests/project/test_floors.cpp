@@ -82,7 +82,7 @@ const std::map<std::string, std::set<std::string>> below{
     {"measure", {"rays", "sphere", "mesh"}},
     {"render", {"texture", "image", "io", "chart", "sphere", "mesh"}},
     {"bake", {"render", "rays", "texture", "image", "io", "chart", "sphere", "mesh"}},
-    {"paint", {"texture", "image", "io", "chart", "sphere", "mesh"}},
+    {"paint", {"bake", "texture", "image", "io", "chart", "sphere", "mesh"}},
     {"remesh", {"embedding", "rays", "measure", "image", "texture", "io", "sphere", "mesh"}},
     {"displace", {"remesh", "rays", "measure", "image", "io", "sphere", "mesh"}},
     {"wrap", {"measure", "rays", "mesh"}},

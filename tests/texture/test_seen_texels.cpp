@@ -69,7 +69,7 @@ TEST_CASE("seen texels: a triangle without area is touched, not inside") {
 }
 
 TEST_CASE(
-    "seen texels: of a mesh, by its own coordinates; all where many images are tiled, or none "
+    "seen texels: of a mesh, by its own coordinates, all where many images are tiled, or none "
     "are") {
   MeshFile file = square(0.5);
   CHECK(picture(seen_texels(file, TextureWrap::Clamp, 4, 4, 1), 4, 4) ==
