@@ -117,43 +117,22 @@ std::vector<double> values_of_mesh(const MeshFile& mesh, const FileNumbers& numb
   return result;
 }
 
+constexpr std::string_view of_shape[] = {"x", "y", "z", "nx", "ny", "nz"};
+constexpr std::string_view of_maps[] = {"sx", "sy", "sz", "theta", "phi"};
+constexpr std::string_view of_colours[] = {"red", "green", "blue", "alpha", "r", "g", "b"};
+constexpr std::string_view of_other_colours[] = {"diffuse_red", "diffuse_green", "diffuse_blue",
+                                                 "diffuse_alpha"};
+constexpr std::string_view of_textures[] = {"s", "t", "u", "v", "texture_u", "texture_v"};
+constexpr std::string_view of_faces[] = {"material", "texnumber", filler_property};
+constexpr std::string_view of_sources[] = {"source_vertex", "source_face"};
+
 /// Names that mean something in a mesh, and are taken for it when it is read.
-bool has_a_role(const std::string& name) {
-  static const std::set<std::string> names = {"",
-                                              "x",
-                                              "y",
-                                              "z",
-                                              "sx",
-                                              "sy",
-                                              "sz",
-                                              "theta",
-                                              "phi",
-                                              "nx",
-                                              "ny",
-                                              "nz",
-                                              "red",
-                                              "green",
-                                              "blue",
-                                              "alpha",
-                                              "diffuse_red",
-                                              "diffuse_green",
-                                              "s",
-                                              "t",
-                                              "u",
-                                              "v",
-                                              "r",
-                                              "g",
-                                              "b",
-                                              "diffuse_blue",
-                                              "diffuse_alpha",
-                                              "texture_u",
-                                              "texture_v",
-                                              "material",
-                                              "texnumber",
-                                              "source_vertex",
-                                              "source_face",
-                                              filler_property};
-  return names.contains(name);
+bool has_a_role(std::string_view name) {
+  const auto is_one = [name](const auto&... lists) {
+    return ((std::ranges::count(lists, name) > 0) || ...);
+  };
+  return name.empty() ||
+         is_one(of_shape, of_maps, of_colours, of_other_colours, of_textures, of_faces, of_sources);
 }
 
 /// What formats take for a name, and unlike those that are there.

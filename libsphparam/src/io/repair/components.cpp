@@ -89,6 +89,23 @@ TriangleMesh mesh_of(const TriangleMesh& whole, const Part& part, std::vector<Ve
   return mesh;
 }
 
+/// How a part comes to a map.
+struct PartTrial {
+  bool can_be_mapped = false, as_it_is = false;
+  RepairOptions options = {};  // that it takes
+};
+
+PartTrial try_alone(TriangleMesh mesh) {
+  if (!has_area(mesh)) return {};  // whatever is mended, there is nothing to map
+  MeshSource alone;
+  alone.inspection = inspect_mesh(mesh);
+  alone.file.mesh = std::move(mesh);
+  if (alone.inspection.is_sphere()) return {.can_be_mapped = true, .as_it_is = true};
+  const RepairTrial trial = try_part(alone);
+  const bool mends = trial.can_mend() && trial.options.component == 0;
+  return {.can_be_mapped = mends, .options = trial.options};
+}
+
 }  // namespace
 
 RepairOptions before_components(RepairOptions repairs) {
@@ -135,22 +152,9 @@ PartsTrial try_parts(const MeshSource& source) {
   double area = 0, left_out = 0;
   for (const Part& part : parts) {
     area += part.area;
-    MeshSource alone;
-    alone.file.mesh = mesh_of(mesh, part, names);
-    alone.inspection = inspect_mesh(alone.file.mesh);
-    const bool has_shape = has_area(alone.file.mesh);
-    if (has_shape && alone.inspection.is_sphere()) {
-      ++trial.mended;
-      continue;
-    }
-    trial.as_they_are = false;
-    if (!has_shape) {  // whatever is mended, there is nothing to map
-      left_out += part.area;
-      continue;
-    }
-    const RepairTrial of_part = try_part(alone);
-    const bool mends = of_part.can_mend() && of_part.options.component == 0;
-    if (!mends) {
+    const PartTrial of_part = try_alone(mesh_of(mesh, part, names));
+    trial.as_they_are = trial.as_they_are && of_part.as_it_is;
+    if (!of_part.can_be_mapped) {
       left_out += part.area;
       continue;
     }

@@ -1,7 +1,6 @@
 #include "io/formats/gltf/gltf_document.h"
 
 #include <algorithm>
-#include <functional>
 #include <memory>
 #include <set>
 #include <stdexcept>
@@ -228,6 +227,46 @@ void copy_model(tinygltf::Model& model, const std::string& name, const SceneOrig
   note_losses(model, origin, document);
 }
 
+void require_all_primitives(const tinygltf::Model& model, std::int64_t wanted,
+                            const std::string& name) {
+  std::int64_t primitives = 0;
+  for (const tinygltf::Mesh& mesh : model.meshes)
+    primitives += static_cast<std::int64_t>(mesh.primitives.size());
+  if (primitives != wanted) throw ReadError(name, "a mesh has a primitive without attributes");
+}
+
+/// Gives textures that name files the folder of these.
+class TexturePlacing {
+ public:
+  explicit TexturePlacing(const std::optional<std::filesystem::path>& folder) : folder_(folder) {}
+
+  void place(MaterialTexture& texture) {
+    if (texture.made_of) texture.made_of = placed(texture.made_of);
+    if (texture.path.empty()) return;
+    if (folder_)
+      texture.folder = folder_->string();
+    else
+      texture.problem = "only a glTF read from a file may name files";
+  }
+
+ private:
+  using Parts = std::shared_ptr<const SpecularGlossiness>;
+
+  /// The same for all textures that are made of these parts.
+  Parts placed(const Parts& parts) {
+    Parts& known = placed_[parts.get()];
+    if (known) return known;
+    auto copy = std::make_shared<SpecularGlossiness>(*parts);
+    place(copy->diffuse);
+    place(copy->specular);
+    known = std::move(copy);
+    return known;
+  }
+
+  const std::optional<std::filesystem::path>& folder_;
+  std::map<const SpecularGlossiness*, Parts> placed_;
+};
+
 }  // namespace
 
 GltfDocument load_gltf(std::string_view bytes, const std::string& name,
@@ -246,34 +285,13 @@ GltfDocument load_gltf(std::string_view bytes, const std::string& name,
   tinygltf::Model model =
       parse(loadable.empty() ? container.whole : loadable, container.is_binary, files, name);
   document.files = std::move(files.read_from);
-  std::int64_t primitives = 0;
-  for (const tinygltf::Mesh& mesh : model.meshes)
-    primitives += static_cast<std::int64_t>(mesh.primitives.size());
-  if (primitives != summary.primitives)
-    throw ReadError(name, "a mesh has a primitive without attributes");
+  require_all_primitives(model, summary.primitives, name);
   copy_model(model, name, origin, document);
   decompress(document, compression, name);
-  std::map<const SpecularGlossiness*, std::shared_ptr<const SpecularGlossiness>> placed_parts;
-  const std::function<void(MaterialTexture&)> place = [&](MaterialTexture& texture) {
-    if (texture.made_of) {
-      std::shared_ptr<const SpecularGlossiness>& placed = placed_parts[texture.made_of.get()];
-      if (!placed) {
-        auto parts = std::make_shared<SpecularGlossiness>(*texture.made_of);
-        place(parts->diffuse);
-        place(parts->specular);
-        placed = std::move(parts);
-      }
-      texture.made_of = placed;
-    }
-    if (texture.path.empty()) return;
-    if (folder)
-      texture.folder = folder->string();
-    else
-      texture.problem = "only a glTF read from a file may name files";
-  };
+  TexturePlacing textures(folder);
   for (GltfDocument::Material& material : document.materials) {
-    place(material.base_colour);
-    for (MaterialTexture* texture : material.channels.textures()) place(*texture);
+    textures.place(material.base_colour);
+    for (MaterialTexture* texture : material.channels.textures()) textures.place(*texture);
   }
   return document;
 }
