@@ -16,7 +16,7 @@ class TexturePyramid {
   /// Channels: 1 (grey), 2 (grey, alpha), 3 or 4, more are dropped; values in [0, 1], sRGB unless
   /// `linear`. Means are of the texels `seen` alone; what nobody sees takes the colour of what lies
   /// near. Requires: at least one texel; `seen` of the image's size, or of all.
-  /// Cost: 11 bytes a texel.
+  /// Cost: 11 bytes a texel, two more while it is made.
   explicit TexturePyramid(const Image& image, bool linear = false, int threads = 0,
                           const SeenTexels& seen = {});
 
