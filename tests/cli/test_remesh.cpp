@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
-#include <sstream>
-#include <cstdio>
 #include <cmath>
+#include <cstdio>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "mapped.h"
 #include "program.h"
@@ -160,6 +160,23 @@ TEST_CASE("remesh: what makes no sense is refused, and nothing is written") {
   CHECK(sphparam_program({"verify", out}).code == 3);
 }
 
+TEST_CASE("remesh: an image of what vertices have not is refused before the mesh is mapped") {
+  const Folder folder;
+  const auto refused = [&](const std::string& image, const std::string& transfer) {
+    const Ended ended = sphparam_program({"remesh", "-", "--grid", "octa:9", "--transfer", transfer,
+                                          "--attribute-image", image + "=" + (folder / "a.exr")},
+                                         obj_text(icosphere(1)));
+    CHECK(ended.code == 2);
+    CHECK_THAT(ended.err, !Contains("mapped now"));
+    return ended.err;
+  };
+  CHECK_THAT(refused("height", "all"), Contains("--attribute-image: vertices have no height; there "
+                                                "are position, normal\n"));
+  CHECK_THAT(refused("color", "all"), Contains("--attribute-image: vertices have no color"));
+  CHECK_THAT(refused("height", "tall"), Contains("--transfer: no property tall"));
+  CHECK(folder.names().empty());
+}
+
 TEST_CASE("remesh: what faces have is in no table, which is told") {
   const Folder folder;
   const std::string mesh = folder / "shape.ply";
@@ -170,8 +187,8 @@ TEST_CASE("remesh: what faces have is in no table, which is told") {
               "end_header\n0 0 0 1\n1 0 0 2\n0 1 0 3\n0 0 1 4\n"
               "3 0 2 1 5 0\n3 0 1 3 6 0\n3 1 2 3 7 1\n3 0 3 2 8 1\n");
   const auto told = [&](const std::string& carried) {
-    const Ended ended = sphparam_program({"remesh", mesh, "--grid", "ico:1", "--transfer", carried,
-                                          "--csv", folder / "t.csv"});
+    const Ended ended = sphparam_program(
+        {"remesh", mesh, "--grid", "ico:1", "--transfer", carried, "--csv", folder / "t.csv"});
     INFO(ended.err);
     REQUIRE(ended.code == 0);
     return ended.err;

@@ -57,6 +57,23 @@ TEST_CASE("matched files: colours are rounded means, labels those of the nearest
     CHECK((region == 7 || region == 1000));
 }
 
+TEST_CASE("matched files: colours are mixed as light") {
+  const MappedMesh coarse = ball(0), fine = ball(1);
+  MeshFile file = coarse.file();
+  for (const char* name : {"red", "alpha"}) {
+    std::vector<double> values(12, 0);
+    values[0] = 255;
+    file.set_vertex_property({name, ScalarType::Uint8, values});
+  }
+  const MeshFile carried = with_other_values(SurfaceMap(fine, with_file(coarse, file)));
+  const auto count = [&](const char* name, double value) {
+    return std::ranges::count(carried.find_vertex_property(name)->values, value);
+  };
+  CHECK(count("red", 255) == 1);
+  CHECK(count("red", 188) == 5);  // the middles of its edges
+  CHECK(count("alpha", 128) == 5);
+}
+
 TEST_CASE("matched files: a texture goes where colours come, which it would hide") {
   const MappedMesh a = ball(2), b = ball(1);
   MeshFile skinned = a.file(), coloured = b.file();

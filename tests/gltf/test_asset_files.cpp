@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "sphparam/gltf/export.h"
+#include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/safe_file.h"
 #include "support/place.h"
 #include "support/test_meshes.h"
@@ -112,6 +113,35 @@ TEST_CASE(
     CHECK_NOTHROW(require_export_place(place / (name + ".gltf")));
   }
   CHECK_NOTHROW(require_export_place(place / "two words .obj"));
+}
+
+TEST_CASE("asset files: numbers that a .ply or .obj changes or has no place for are told") {
+  const MappedMesh plain = ball("ball.obj");
+  MeshFile file = plain.file();
+  const auto count = static_cast<std::size_t>(file.mesh.vertex_count());
+  std::vector<double> labels(count, 5), ramp;
+  labels.back() = 0x1p40;
+  for (std::size_t v = 0; v < count; ++v) ramp.push_back(static_cast<double>(v));
+  file.set_vertex_property({"id", ScalarType::Int64, labels});
+  file.set_vertex_property({"near", ScalarType::Int64, std::vector<double>(count, 5)});
+  for (const char* name : {"t", "nx"}) file.set_vertex_property({name, ScalarType::Float64, ramp});
+  const MappedMesh mapped({.file = std::move(file), .map = plain.map(), .name = "ball.obj"});
+  const Place place;
+  const auto warnings = write_textured_mesh(place / "a.ply", mapped, small).warnings;
+  CHECK(warnings ==
+        std::vector<std::string>{
+            "not carried: nx of vertices: the normals' stand there",
+            "not carried: id as labels: whole numbers beyond 32 bits are doubles there, which are "
+            "averaged (.vtp and .vtk have room)"});
+  const MeshFile back = read_mesh(place / "a.ply");
+  REQUIRE(back.find_vertex_property("t"));
+  for (std::size_t v = 0; v < count; ++v)  // the mesh's own vertices come first
+    CHECK(back.find_vertex_property("t")->values[v] == ramp[v]);
+  CHECK(back.find_vertex_property("near")->type == ScalarType::Int32);
+  CHECK(
+      write_textured_mesh(place / "b.obj", mapped, small).warnings ==
+      std::vector<std::string>{"not carried: nx of vertices: the normals' stand there",
+                               "not carried: id, near and t of vertices: .ply has room for that"});
 }
 
 }  // namespace sphparam::tests

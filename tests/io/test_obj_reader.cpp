@@ -186,7 +186,7 @@ TEST_CASE(
   CHECK(read(text, "a.obj").notes ==
         std::vector<std::string>{
             "not carried: colours and textures of 2 materials in 'a.mtl', which is not read; their "
-            "names are",
+            "names are kept",
             "not carried: the names of 2 objects, 1 group and 1 smoothing group"});
   CHECK(read("mtllib a.mtl\no Fox\ns off\ng default\n" + three_vertices + "f 1 2 3\n", "a.obj")
             .notes == std::vector<std::string>{"its object is called 'Fox'"});
@@ -323,10 +323,11 @@ TEST_CASE("remarks: of comments those that say something of the object, of numbe
                    "material wood"};
   CHECK(remarks_of(file) == std::vector<std::string>{"Inv. 12", "material wood"});
   CHECK(numbers_not_shown(file).empty());
-  for (const char* name : {"sx", "nx", "red", "filler", "quality", "label"})
+  for (const char* name :
+       {"sx", "nx", "ny", "nz", "red", "green", "blue", "filler", "quality", "label", "t"})
     file.set_vertex_property({name, ScalarType::Float32, {0, 0, 0}});
   for (const char* name : {"texnumber", "patch", "corner_red_0"})
     file.set_face_property({name, ScalarType::Int32, {0}});
   CHECK(numbers_not_shown(file) ==
-        std::vector<std::string>{"quality and label of vertices", "patch of faces"});
+        std::vector<std::string>{"quality, label and t of vertices", "patch of faces"});
 }

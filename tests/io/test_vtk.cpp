@@ -454,11 +454,42 @@ TEST_CASE("vtk: arrays that are called otherwise now, or not at all, are told wi
   CHECK(values_of(file.find_vertex_property("V_0_2")) == std::vector<double>{9, 8, 7, 6});
   CHECK(file.notes ==
         std::vector<std::string>{
-            "not carried: array 'gap': 2 of its 4 numbers are not finite",
+            "not carried: array 'gap': 2 of its 4 numbers (50 %) are not finite, and a mesh keeps "
+            "none of these",
             "not carried: names of arrays of points: 'V_0' is V_0_2 and 'x' is x_2",
             "not carried: names of arrays of cells: 'a b' is a_b",
             "T: an array of points and one of cells; where the name is asked for, it is that of "
             "points"});
+}
+
+TEST_CASE("vtk: single numbers that are called as parts of a vector stay, and are told") {
+  const auto notes = [](const std::string& arrays) {
+    return losses_among(read(with_arrays(arrays), "a.vtp").notes);
+  };
+  const auto one = [](const std::string& name, const std::string& values) {
+    return array_of("Float64", name, values);
+  };
+  const std::string zero = "0 0 0 0", some = "1 2 3 4";
+  CHECK(notes(one("t", some)).empty());
+  CHECK(notes(one("s", some) + one("t", some)) ==
+        std::vector<std::string>{"not carried: s and t of points as numbers: arrays of these names "
+                                 "are taken for texture coordinates, others are not"});
+  CHECK(notes(one("nx", zero) + one("ny", zero) + one("nz", "1 1 1 -1")).empty());
+  CHECK(notes(one("nx", zero) + one("ny", zero) + one("nz", "1 1 1 2")) ==
+        std::vector<std::string>{"not carried: nx, ny and nz of points as numbers: arrays of these "
+                                 "names are taken for normals, others are not"});
+  CHECK(notes(one("red", zero) + one("green", zero) + one("blue", "0 0 0 1")).empty());
+  CHECK(notes(one("red", zero) + one("green", zero) + one("blue", some)).size() == 1);
+}
+
+TEST_CASE("vtk: a number is not mixed up with the vector that its name is a part of") {
+  const std::string places =
+      array_of("Float64", "TCoords", "0 1 0 1 0 1 0 1", "NumberOfComponents=\"2\"");
+  const MeshFile file = read(with_arrays(array_of("Float64", "t", "5 6 7 8") + places), "a.vtp");
+  CHECK(values_of(file.find_vertex_property("t")) == std::vector<double>{1, 1, 1, 1});
+  CHECK(values_of(file.find_vertex_property("t_2")) == std::vector<double>{5, 6, 7, 8});
+  CHECK(losses_among(file.notes) ==
+        std::vector<std::string>{"not carried: names of arrays of points: 't' is t_2"});
 }
 
 TEST_CASE("vtk: a file that is cut short anywhere is refused or is whole without the rest") {

@@ -56,10 +56,13 @@ TEST_CASE("resampling: alpha, and what is out of the range of the curve, are pla
   CHECK(colour(cell(0.5, 0.5), "red", ScalarType::Uint8, 0, 256) == 128);
 }
 
-TEST_CASE("resampling: at points colours are means of what is stored") {
-  CHECK(colour(middle(), "red", ScalarType::Uint8, 0, 254) == 127);
-  CHECK(colour(middle(), "red", ScalarType::Float64, 0.25, 0.75) == 0.5);
+TEST_CASE("resampling: at points colours are means of light as over cells, alpha is a plain mean") {
+  CHECK(colour(middle(), "red", ScalarType::Uint8, 0, 255) == 188);
+  CHECK(colour(middle(), "red", ScalarType::Float64, 0.25, 0.75) ==
+        Approx(shown(0.5 * light(0.25) + 0.5 * light(0.75))).margin(1e-5));
   CHECK(colour(middle(), "alpha", ScalarType::Float64, 0.25, 0.75) == 0.5);
+  for (const double same : {0.0, 0.1, 0.7, 1.0})
+    CHECK(colour(middle(), "red", ScalarType::Float64, same, same) == same);
 }
 
 TEST_CASE("resampling: what has no weight is not looked at") {

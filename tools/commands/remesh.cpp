@@ -2,6 +2,7 @@
 // grid's directions are. What was written is read back and certified before it gets its name.
 
 #include <algorithm>
+#include <iterator>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "commands/command.h"
 #include "commands/sources.h"
 #include "console/places.h"
+#include "io/attributes/appearance.h"
 #include "number_text.h"
 #include "remesh/wanted_values.h"
 #include "reports/remesh_wording.h"
@@ -21,6 +23,7 @@
 #include "sphparam/io/fillers.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/verify_map.h"
 #include "sphparam/io/vertex_data.h"
 #include "sphparam/measure/measurable.h"
 #include "sphparam/remesh/geometry_image.h"
@@ -195,8 +198,7 @@ void add_data(const RemeshRequests& requests, int last, const Remeshed& made, Se
 void add_meshes(const RemeshArguments& arguments, const RemeshRequests& requests,
                 const MappedMesh& mapped, const std::vector<LevelOfDetail>& levels,
                 Session& session) {
-  // Places are computed here: GIFTI has them in 32 bits, as the tools about it ask.
-  const WriteOptions new_mesh{.float32 = true, .origin = arguments.input};
+  const WriteOptions new_mesh{.origin = arguments.input};
   if (requests.one_file) {
     add_glb(arguments, mapped, levels, session);
   } else if (!arguments.output.empty()) {
@@ -251,7 +253,7 @@ void lay_textures(std::vector<LevelOfDetail>& levels, const RemeshArguments& arg
                   const RemeshRequests& requests, const MappedMesh& mapped,
                   const std::optional<WrittenDisplacement>& displacement, Session& session) {
   if (!requests.layout) return;
-  if (mapped.file().corner_texcoords || mapped.file().find_vertex_property("s"))
+  if (has_texcoords(mapped.file()))
     session.console.warning("texture coordinates of the mesh are left out; --uv mesh carries them");
   std::vector<std::string> recipe;
   if (displacement)
@@ -305,7 +307,22 @@ std::string table_of(const RemeshArguments& arguments, const MappedMesh& mapped,
   return sample_table(made, arguments.degrees ? TableAngles::Degrees : TableAngles::Radians, holes);
 }
 
-RemeshOutputs outputs_of(const RemeshArguments& arguments, const RemeshRequests& requests) {
+/// Files of --data, beside meshes or as they were named.
+Words data_files(const RemeshArguments& arguments, const RemeshRequests& requests,
+                 std::span<const LevelOfDetail> levels) {
+  Words files = requests.data_outputs;
+  const auto add_beside = [&](const std::string& path, const LevelOfDetail& level) {
+    if (!path.empty())
+      std::ranges::copy(paths_beside(path, level.mesh.file()), std::back_inserter(files));
+  };
+  for (size_t i = 0; i < requests.outputs.size() && i < levels.size(); ++i)
+    add_beside(requests.outputs[i], levels[i]);
+  add_beside(arguments.limit_output, levels.front());
+  return files;
+}
+
+RemeshOutputs outputs_of(const RemeshArguments& arguments, const RemeshRequests& requests,
+                         std::span<const LevelOfDetail> levels) {
   return {.mesh = arguments.output,
           .limit_mesh = arguments.limit_output,
           .displacement = arguments.displacement,
@@ -314,6 +331,7 @@ RemeshOutputs outputs_of(const RemeshArguments& arguments, const RemeshRequests&
           .normals = arguments.normal_image,
           .csv = arguments.csv,
           .attribute_images = arguments.attribute_images,
+          .data = data_files(arguments, requests, levels),
           .levels = requests.outputs};
 }
 
@@ -322,17 +340,40 @@ MissingValues missing_values(const RemeshRequests& requests) {
   return requests.data_outputs.empty() ? MissingValues::LeftOut : MissingValues::Refused;
 }
 
+/// Throws: UsageMistake for what is to be carried, or shown by an image, and is not there.
+void require_values(const MeshFile& source, const RemeshArguments& arguments,
+                    const RemeshRequests& requests) try {
+  const WantedValues wanted(split(arguments.transfer), source);
+  try {
+    for (const ImageRequest& image : requests.images) wanted.require_image(image.what, source);
+  } catch (const NoSuchProperty& error) {
+    throw UsageMistake("--attribute-image: " + std::string(error.what()));
+  }
+} catch (const NoSuchProperty& error) {
+  throw UsageMistake("--transfer: " + std::string(error.what()));
+}
+
 /// The mesh with its map; what it lacks is told before it is mapped, which may take minutes.
 MappedMesh read_remeshed(const RemeshArguments& arguments, const RemeshRequests& requests,
-                         Session& session) try {
+                         Session& session) {
   session.hold_signals();
   MeshSource source = read_mended(arguments.input, arguments.repair, session, arguments.data,
                                   missing_values(requests));
-  WantedValues(split(arguments.transfer), source.file);
+  require_values(source.file, arguments, requests);
   return map_source(std::move(source), arguments.sphere, session, arguments.repair,
                     remeshing_lambda);
-} catch (const NoSuchProperty& error) {
-  throw UsageMistake("--transfer: " + std::string(error.what()));
+}
+
+/// Of data on a sphere, whose areas are none of the surface that was measured.
+void tell_areas_of_sphere(const RemeshArguments& arguments, const TriangleMesh& mesh,
+                          Session& session) {
+  const bool are_its_own = arguments.sample == SampleMode::AdapBaryArea &&
+                           arguments.areas.empty() && !arguments.data.empty();
+  if (are_its_own && roundness_warning(SphereMap{mesh.positions}).empty())
+    session.warn({"the areas of --sample adap-bary-area are those of " +
+                  display_name(arguments.input) +
+                  ", which is a sphere: --areas OLD,NEW takes those of surfaces, as "
+                  "`wb_command … -area-surfs` does"});
 }
 
 int run_remesh(RemeshArguments& arguments) {
@@ -349,6 +390,8 @@ int run_remesh(RemeshArguments& arguments) {
   const Stopwatch grid_stopwatch;
   SphereGrid grid = grid_for(arguments, requests);
   const double grid_seconds = grid_stopwatch.seconds();
+  if (!grid.warning.empty()) session.warn({grid.warning});
+  tell_areas_of_sphere(arguments, mapped.mesh(), session);
   std::optional<Adaptation> adaptation;
   if (arguments.adaptive) {
     adaptation = adapt(mapped, grid.directions.rows(), arguments.input, session);
@@ -369,7 +412,7 @@ int run_remesh(RemeshArguments& arguments) {
                       .adaptation = adaptation,
                       .layout = requests.layout,
                       .displacement = displacement,
-                      .outputs = outputs_of(arguments, requests),
+                      .outputs = outputs_of(arguments, requests, levels),
                       .grid_seconds = grid_seconds};
   const LevelOfDetail& finest = levels.front();
   add_meshes(arguments, requests, mapped, levels, session);

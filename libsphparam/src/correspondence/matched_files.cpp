@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <string_view>
 #include <utility>
 
 #include "io/attributes/corner_colours.h"
+#include "io/attributes/mixed_colour.h"
 #include "io/attributes/other_coordinates.h"
 #include "io/attributes/texture_pages.h"
 #include "io/attributes/weightiest_label.h"
@@ -17,7 +17,6 @@ namespace {
 
 using std::string_view_literals::operator""sv;
 
-constexpr std::array colours = {"red"sv, "green"sv, "blue"sv, "alpha"sv};
 /// Of the shape, of the map, of the file, or of another match: they mean nothing elsewhere.
 constexpr std::array not_carried = {"nx"sv,          "ny"sv,       "nz"sv,
                                     "sx"sv,          "sy"sv,       "sz"sv,
@@ -30,28 +29,30 @@ bool is_among(const auto& names, const std::string& name) {
   return std::ranges::find(names, name) != names.end();
 }
 
-double label_at(const TriangleMesh& mesh, const std::vector<double>& labels,
-                const SurfacePoint& point) {
-  std::array<std::pair<double, double>, 3> labelled;
-  for (int k = 0; k < 3; ++k) {
-    labelled[static_cast<size_t>(k)] = {labels[static_cast<size_t>(mesh.triangles(point.face, k))],
-                                        point.barycentric[k]};
-  }
-  return weightiest_label(labelled);
+/// What the corners about a point have, by their weights.
+std::array<std::pair<double, double>, 3> weighed(const TriangleMesh& mesh,
+                                                 const std::vector<double>& values,
+                                                 const SurfacePoint& point) {
+  std::array<std::pair<double, double>, 3> corners;
+  for (int k = 0; k < 3; ++k)
+    corners[static_cast<size_t>(k)] = {values[static_cast<size_t>(mesh.triangles(point.face, k))],
+                                       point.barycentric[k]};
+  return corners;
 }
 
 Property carried(const TriangleMesh& mesh, const Property& property,
                  const std::vector<SurfacePoint>& points) {
   Property result{property.name, property.type, {}};
-  const bool is_colour = is_among(colours, property.name);
-  if (is_floating(property.type) || is_colour) {
+  const bool is_colour = is_colour_name(property.name);
+  if (is_floating(property.type) && !is_colour) {
     result.values = values_at(mesh, property.values, points);
-    if (!is_floating(property.type))
-      for (double& value : result.values) value = std::round(value);
     return result;
   }
-  for (const SurfacePoint& point : points)
-    result.values.push_back(label_at(mesh, property.values, point));
+  for (const SurfacePoint& point : points) {
+    auto corners = weighed(mesh, property.values, point);
+    result.values.push_back(is_colour ? mixed_colour(property.name, property.type, corners)
+                                      : weightiest_label(corners));
+  }
   return result;
 }
 

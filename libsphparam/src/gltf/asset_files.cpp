@@ -21,6 +21,8 @@
 #include "gltf/written_check.h"
 #include "io/attributes/finish_terms.h"
 #include "io/attributes/remarks.h"
+#include "io/attributes/whole_vector.h"
+#include "io/formats/lossless_type.h"
 #include "number_text.h"
 #include "sphparam/errors.h"
 #include "sphparam/gltf/export.h"
@@ -131,6 +133,30 @@ class Adder {
   WrittenFiles written_;
 };
 
+/// Numbers that are called as a component of the normals, which are written with all of theirs.
+std::vector<std::string> replaced_by_normals(const MeshFile& source) {
+  std::vector<std::string> names;
+  for (const char* name : {"nx", "ny", "nz"})
+    if (source.find_vertex_property(name) && !is_of_whole_vector(name, source.vertex_properties))
+      names.emplace_back(name);
+  return names;
+}
+
+/// What of the source's numbers a .ply or .obj has no place for.
+void tell_numbers_lost(const MeshFile& source, const MeshFile& textured, bool obj,
+                       std::vector<std::string>& warnings) {
+  if (const auto names = replaced_by_normals(source); !names.empty())
+    add_loss(warnings, enumerated(names) + " of vertices: the normals' stand there");
+  if (obj) {
+    if (const auto words = numbers_not_shown(textured); !words.empty())
+      add_loss(warnings, joined(words, " and ") + ": .ply has room for that");
+    return;
+  }
+  for (const auto* properties : {&textured.vertex_properties, &textured.face_properties})
+    if (const auto names = labels_beyond_32_bits(*properties); !names.empty())
+      add_loss(warnings, words_of_lost_labels(names));
+}
+
 }  // namespace
 
 std::size_t bytes_of(const std::vector<AssetImage>& images) {
@@ -221,11 +247,10 @@ TexturedFiles add_textured_mesh(PendingFiles& files, const std::string& path,
   };
   const std::string image_path = image_file(path, image);
   const std::string image_name = fs::path(image_path).filename().string();
+  tell_numbers_lost(mapped.file(), textured, obj, result.warnings);
   Adder adder(files, path);
   if (obj) {
     const std::string library = fs::path(library_of(path)).filename().string();
-    if (const auto words = numbers_not_shown(textured); !words.empty())
-      add_loss(result.warnings, joined(words, " and ") + ": .ply has room for that");
     adder.add(path, obj_with_library(textured, library), check);
     adder.add(library_of(path), material_library(image_name));
   } else {

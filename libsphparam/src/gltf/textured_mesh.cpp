@@ -6,9 +6,11 @@
 #include <utility>
 
 #include "io/attributes/corner_colours.h"
+#include "io/attributes/mixed_colour.h"
 #include "io/attributes/remarks.h"
 #include "io/attributes/shading_normals.h"
 #include "io/attributes/weightiest_label.h"
+#include "io/attributes/whole_vector.h"
 #include "sphparam/chart/carry_attributes.h"
 #include "sphparam/chart/tangent_frame.h"
 #include "sphparam/io/mesh_writer.h"
@@ -23,16 +25,13 @@ namespace {
 
 constexpr char material_name[] = "sphparam";
 
-bool is_made_anew(const std::string& name) {
+/// Of a normal and of texture coordinates all components: a "t" alone is a number like others.
+bool is_made_anew(const std::string& name, const std::vector<Property>& properties) {
   static const std::vector<std::string> names = {
-      "sx", "sy", "sz", "theta",    "phi",           "nx",          "ny",
-      "nz", "s",  "t",  "material", "source_vertex", "source_face", "texnumber"};
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-bool is_label(const Property& property) {
-  static constexpr std::array<std::string_view, 4> colours = {"red", "green", "blue", "alpha"};
-  return !is_floating(property.type) && std::ranges::find(colours, property.name) == colours.end();
+      "sx", "sy", "sz", "theta", "phi", "material", "source_vertex", "source_face", "texnumber"};
+  static const std::vector<std::string> components = {"nx", "ny", "nz", "s", "t"};
+  return std::ranges::count(names, name) > 0 ||
+         (std::ranges::count(components, name) > 0 && is_of_whole_vector(name, properties));
 }
 
 Property rounded(Property property) {
@@ -41,16 +40,19 @@ Property rounded(Property property) {
   return property;
 }
 
-/// A new vertex gets that of the corners which weigh most, never a mean.
-std::vector<double> carry_labels(const SphericalChart& chart, const Triangles& source,
-                                 const std::vector<double>& labels) {
+/// A new vertex gets the colour between its corners, or the label of those which weigh most, never
+/// a mean.
+std::vector<double> carry_mixed(const SphericalChart& chart, const Triangles& source,
+                                const Property& property) {
+  const bool is_colour = is_colour_name(property.name);
   std::vector<double> carried;
   for (const SurfacePoint& point : chart.surface_points) {
-    std::array<std::pair<double, double>, 3> labelled;
+    std::array<std::pair<double, double>, 3> corners;
     for (int k = 0; k < 3; ++k)
-      labelled[static_cast<size_t>(k)] = {labels[static_cast<size_t>(source(point.face, k))],
-                                          point.barycentric[k]};
-    carried.push_back(weightiest_label(labelled));
+      corners[static_cast<size_t>(k)] = {
+          property.values[static_cast<size_t>(source(point.face, k))], point.barycentric[k]};
+    carried.push_back(is_colour ? mixed_colour(property.name, property.type, corners)
+                                : weightiest_label(corners));
   }
   return carried;
 }
@@ -59,7 +61,7 @@ std::vector<double> carry_labels(const SphericalChart& chart, const Triangles& s
 template <class Carry>
 void carry(const std::vector<Property>& properties, std::vector<Property>& to, Carry&& values) {
   for (const Property& property : properties) {
-    if (is_made_anew(property.name) || is_corner_colour(property.name)) continue;
+    if (is_made_anew(property.name, properties) || is_corner_colour(property.name)) continue;
     to.push_back(rounded({property.name, property.type, values(property)}));
   }
 }
@@ -97,8 +99,9 @@ MeshFile textured_mesh(const ExportChart& exported, const MeshFile& source, Shap
   const bool is_sphere = shape == ShapeKind::Sphere;
   file.mesh.positions = is_sphere ? chart.points : Points(of_vertices(source.mesh.positions));
   carry(source.vertex_properties, file.vertex_properties, [&](const Property& property) {
-    return is_label(property) ? carry_labels(chart, triangles, property.values)
-                              : as_list(of_vertices(column_of(property)));
+    return is_floating(property.type) && !is_colour_name(property.name)
+               ? as_list(of_vertices(column_of(property)))
+               : carry_mixed(chart, triangles, property);
   });
   carry(source.face_properties, file.face_properties, [&](const Property& property) {
     return as_list(carry_face_attribute(chart, triangles, column_of(property)));

@@ -8,7 +8,7 @@ namespace sphparam {
 
 /// The chart as a mesh file, for formats with texture coordinates at corners: the refined mesh, the
 /// (u, 1 − v) of its wedges at the corners, v upwards as these formats have it; vertex and face
-/// properties of the source, colours rounded to their type, other whole numbers taken as labels,
+/// properties of the source, colours mixed as light, other whole numbers taken as labels,
 /// normals interpolated, those of corners at corners too; one material; what comments say of the
 /// object (remarks.h). `shape`: the mesh or its sphere. Axes stay as they are; comments of the mesh
 /// say which are up and in front, those of `up` where it says so.

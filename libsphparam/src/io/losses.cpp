@@ -7,6 +7,9 @@
 
 #include "io/attributes/corner_colours.h"
 #include "io/attributes/texture_pages.h"
+#include "io/attributes/whole_vector.h"
+#include "io/formats/lossless_type.h"
+#include "mesh/flat_face.h"
 #include "number_text.h"
 #include "sphparam/io/file_numbers.h"
 
@@ -21,14 +24,16 @@ bool is_one_of(std::string_view name, std::initializer_list<std::string_view> na
 
 /// Whether what was read has the attribute, be it at vertices or at corners; colours may have been
 /// rounded to bytes or from them.
-bool is_carried(const Property& property, const std::vector<Property>& read, const MeshFile& file) {
-  if (is_one_of(property.name, {"s", "t"}) && file.corner_texcoords) return true;
-  if (is_one_of(property.name, {"nx", "ny", "nz"}) && file.corner_normals) return true;
+bool is_carried(const Property& property, const std::vector<Property>& written,
+                const std::vector<Property>& read, const MeshFile& file) {
+  const bool is_whole = is_of_whole_vector(property.name, written);
+  if (is_whole && is_one_of(property.name, {"s", "t"}) && file.corner_texcoords) return true;
+  if (is_whole && is_one_of(property.name, {"nx", "ny", "nz"}) && file.corner_normals) return true;
   const auto found = std::find_if(read.begin(), read.end(), [&](const Property& candidate) {
     return candidate.name == property.name;
   });
   if (found == read.end()) return false;
-  return is_one_of(property.name, {"red", "green", "blue", "alpha"}) ||
+  return (is_whole && is_one_of(property.name, {"red", "green", "blue", "alpha"})) ||
          found->values == property.values;
 }
 
@@ -40,13 +45,26 @@ std::vector<std::string> gone(const std::vector<Property>& written,
   for (const Property& property : written) {
     if (is_one_of(property.name, {"sx", "sy", "sz", "theta", "phi", "source_face"})) continue;
     if (is_corner_colour(property.name)) continue;
-    if (is_carried(property, read, file)) continue;
+    if (is_carried(property, written, read, file)) continue;
     const bool elsewhere = std::any_of(read.begin(), read.end(), [&](const Property& candidate) {
       return candidate.values == property.values;
     });
     (elsewhere ? renamed : names).push_back(property.name);
   }
   return names;
+}
+
+/// Triangles that had area before they were rounded.
+std::int64_t flattened(const TriangleMesh& written, const TriangleMesh& read) {
+  const auto is_flat_in = [](const TriangleMesh& mesh, Face f) {
+    return has_no_area(mesh.position(mesh.triangles(f, 0)), mesh.position(mesh.triangles(f, 1)),
+                       mesh.position(mesh.triangles(f, 2)));
+  };
+  std::int64_t count = 0;
+  if (read.triangles != written.triangles) return count;
+  for (Face f = 0; f < written.face_count(); ++f)
+    count += is_flat_in(read, f) && !is_flat_in(written, f);
+  return count;
 }
 
 void compare_positions(const MeshFile& written, const MeshFile& read,
@@ -58,6 +76,11 @@ void compare_positions(const MeshFile& written, const MeshFile& read,
   add_loss(losses, "the last digits of " + std::to_string(moved) + " of " +
                        counted(before.rows(), "vertex", "vertices") +
                        ": coordinates there have 32 bits");
+  const auto flat = flattened(written.mesh, read.mesh);
+  if (flat > 0)
+    add_loss(losses, "the area of " + std::to_string(flat) + " of " +
+                         counted(written.mesh.face_count(), "triangle") +
+                         ": with coordinates of 32 bits they have none");
 }
 
 /// Labels that were read as measures: the format has no whole numbers so large.
@@ -123,9 +146,7 @@ std::vector<std::string> losses_of_writing(const MeshFile& written, const MeshFi
        {std::pair(&written.vertex_properties, &read.vertex_properties),
         {&written.face_properties, &read.face_properties}})
     if (const std::vector<std::string> names = no_labels_now(*before, *after); !names.empty())
-      add_loss(losses, enumerated(names) +
-                           " as labels: whole numbers beyond 32 bits are doubles there, which are "
-                           "averaged (.vtp and .vtk have room)");
+      add_loss(losses, words_of_lost_labels(names));
   const auto has_any = [&](const MeshFile& file, const char* name) {
     return file.find_vertex_property(name) != nullptr;
   };

@@ -10,6 +10,7 @@
 #include <span>
 #include <utility>
 
+#include "io/attributes/mixed_colour.h"
 #include "option_domain.h"
 #include "remesh/cell_means.h"
 #include "remesh/face_means.h"

@@ -9,10 +9,9 @@
 #include <span>
 #include <utility>
 
-#include "io/attributes/appearance.h"
+#include "io/attributes/mixed_colour.h"
 #include "io/attributes/weightiest_label.h"
 #include "sphparam/parallel.h"
-#include "srgb_curves.h"
 
 namespace sphparam {
 
@@ -24,7 +23,6 @@ constexpr std::int64_t grain = 4096;
 struct Sources {
   std::span<const Vertex> vertices;
   std::span<const double> weights;
-  bool of_cell;
 };
 
 /// Calls visit(sample, sources) for every sample, in parallel.
@@ -39,12 +37,12 @@ void for_each_sample(const Resampling& resampling, const Visit& visit) {
       const auto size =
           cells.starts.empty() ? 0 : static_cast<size_t>(cells.starts[at + 1]) - start;
       if (size > 0) {
-        visit(i, Sources{{&cells.vertices[start], size}, {&cells.weights[start], size}, true});
+        visit(i, Sources{{&cells.vertices[start], size}, {&cells.weights[start], size}});
         continue;
       }
       const SurfacePoint& point = resampling.points[at];
       const Vertex* const corners = resampling.triangles.data() + 3 * std::int64_t{point.face};
-      visit(i, Sources{{corners, 3}, {point.barycentric.data(), 3}, false});
+      visit(i, Sources{{corners, 3}, {point.barycentric.data(), 3}});
     }
   });
 }
@@ -61,6 +59,16 @@ double mean(const Sources& sources, const Value& value) {
     greatest = std::max(greatest, x);
   }
   return sum < least ? least : greatest < sum ? greatest : sum;
+}
+
+/// Values and their weights; good until the next call of this thread.
+std::span<std::pair<double, double>> weighed(const Property& property, const Sources& sources) {
+  thread_local std::vector<std::pair<double, double>> values;
+  values.clear();
+  for (size_t e = 0; e < sources.vertices.size(); ++e)
+    values.emplace_back(property.values[static_cast<size_t>(sources.vertices[e])],
+                        sources.weights[e]);
+  return values;
 }
 
 double in_type(ScalarType type, double value) {
@@ -89,25 +97,10 @@ std::vector<double> resample_property(const Resampling& resampling, const Proper
 }
 
 std::vector<double> resample_colour(const Resampling& resampling, const Property& channel) {
-  const SrgbCurves& curves = SrgbCurves::get();
-  const double unit = brightest(channel.type);
-  const auto stored = [&](Vertex v) { return channel.values[static_cast<size_t>(v)]; };
-  const auto light = [&](Vertex v) {
-    return static_cast<double>(curves.to_linear(static_cast<float>(stored(v) / unit)));
-  };
-  const bool is_light = channel.name != "alpha";
   std::vector<double> result(resampling.points.size());
   for_each_sample(resampling, [&](std::int64_t i, const Sources& sources) {
-    double value = mean(sources, stored);
-    if (sources.of_cell && is_light) {
-      const auto [least, greatest] =
-          std::minmax_element(sources.vertices.begin(), sources.vertices.end(),
-                              [&](Vertex a, Vertex b) { return stored(a) < stored(b); });
-      const bool has_curve = stored(*least) >= 0 && stored(*greatest) <= unit;
-      const double shown = curves.to_srgb(static_cast<float>(mean(sources, light))) * unit;
-      if (has_curve) value = std::clamp(shown, stored(*least), stored(*greatest));
-    }
-    result[static_cast<size_t>(i)] = in_type(channel.type, value);
+    result[static_cast<size_t>(i)] =
+        mixed_colour(channel.name, channel.type, weighed(channel, sources));
   });
   return result;
 }
@@ -115,13 +108,7 @@ std::vector<double> resample_colour(const Resampling& resampling, const Property
 std::vector<double> resample_labels(const Resampling& resampling, const Property& property) {
   std::vector<double> result(resampling.points.size());
   for_each_sample(resampling, [&](std::int64_t i, const Sources& sources) {
-    thread_local std::vector<std::pair<double, double>> labelled;
-    labelled.clear();
-    for (size_t e = 0; e < sources.vertices.size(); ++e) {
-      labelled.emplace_back(property.values[static_cast<size_t>(sources.vertices[e])],
-                            sources.weights[e]);
-    }
-    result[static_cast<size_t>(i)] = weightiest_label(labelled);
+    result[static_cast<size_t>(i)] = weightiest_label(weighed(property, sources));
   });
   return result;
 }

@@ -24,8 +24,7 @@ std::vector<double> resample(const Resampling& resampling, const double* values,
 /// The same in float32 or integers of the property's type, for properties that are measured.
 std::vector<double> resample_property(const Resampling& resampling, const Property& property);
 
-/// One channel of sRGB, of any type. At points as stored, which is what viewers do between
-/// vertices; over cells in linear light, but for the channel "alpha".
+/// One channel of sRGB, of any type, in linear light: see `mixed_colour`.
 std::vector<double> resample_colour(const Resampling& resampling, const Property& channel);
 
 /// For values that name something: that of the largest total weight, the lowest where there are

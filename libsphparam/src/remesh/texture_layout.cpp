@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "io/attributes/texture_pages.h"
+#include "io/attributes/whole_vector.h"
+#include "io/attributes/texture_pages.h"
 #include "remesh/grids/grid_family.h"
 #include "remesh/texture_lattice.h"
 
@@ -58,7 +60,8 @@ std::vector<int> polygon_corners(const Triangles& triangles, const Polygons& fac
 
 void put_coordinates(MeshFile& file, const Polygons& faces, const TextureLattice& lattice) {
   const std::vector<int> corners = polygon_corners(file.mesh.triangles, faces);
-  remove_properties(file.vertex_properties, {"s", "t"});
+  if (is_of_whole_vector("s", file.vertex_properties))
+    remove_properties(file.vertex_properties, {"s", "t"});
   file.corner_texcoords.emplace(static_cast<Eigen::Index>(corners.size()), 2);
   file.corner_texcoord_type = ScalarType::Float64;
   for (size_t i = 0; i < corners.size(); ++i)

@@ -10,9 +10,6 @@ namespace sphparam {
 /// Properties of vertices that are one normal.
 constexpr const char* normal_names[] = {"nx", "ny", "nz"};
 
-/// Whether a property of vertices of this name is of their colour.
-bool is_colour_name(const std::string& name);
-
 /// Which of a source's values are to be carried, by the words of `RemeshOptions::transfer`.
 class WantedValues {
  public:
@@ -20,6 +17,11 @@ class WantedValues {
   WantedValues(const std::vector<std::string>& words, const MeshFile& source);
 
   bool property(const std::string& name) const;  // of vertices or faces
+
+  /// Throws: NoSuchProperty where the new vertices will not have what a geometry image is to show,
+  /// as `add_geometry_image` has it.
+  void require_image(const std::string& what, const MeshFile& source) const;
+
   bool corner_texcoords() const;
   bool corner_normals() const;
 

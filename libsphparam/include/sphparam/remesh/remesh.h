@@ -74,8 +74,8 @@ class Remeshed : public MappedMesh {
 /// centre in that direction meets, as near as its vertices are to theirs; not of one that was made
 /// anew, or where mesh or map were moved since (`is_as_said`, planetocentric.h).
 ///
-/// Floating numbers and colours are interpolated, normals made unit again, whole numbers are labels
-/// and never mixed. Texture coordinates and normals of corners come from the side of a seam that
+/// Floating numbers are interpolated, and colours as light, normals made unit again, whole numbers
+/// are labels and never mixed. Texture coordinates and normals of corners come from the side of a seam that
 /// the face's middle lies on. Faces have the material and the properties of the source at their
 /// middle. Whatever is asked for, texture coordinates and properties of faces are point samples.
 /// Data of vertices may be NaN: what is a mean of it is NaN. The result's provenance says which

@@ -7,6 +7,7 @@
 
 #include "io/attributes/corner_colours.h"
 #include "io/attributes/texture_pages.h"
+#include "io/attributes/whole_vector.h"
 #include "sphparam/io/fillers.h"
 #include "sphparam/io/losses.h"
 
@@ -23,21 +24,19 @@ bool says_of_file(std::string_view comment) {
   return of_material || std::ranges::any_of(heads, begins);
 }
 
-bool has_a_place(const std::string& name) {
-  static constexpr std::array<std::string_view, 19> names = {
-      "sx",          "sy",        "sz",           "theta",
-      "phi",         "nx",        "ny",           "nz",
-      "s",           "t",         "red",          "green",
-      "blue",        "alpha",     "material",     "source_vertex",
+bool has_a_place(const std::string& name, const std::vector<Property>& properties) {
+  static constexpr std::array<std::string_view, 10> names = {
+      "sx",          "sy",        "sz",           "theta", "phi", "material", "source_vertex",
       "source_face", "texnumber", filler_property};
-  return std::ranges::count(names, name) > 0 || is_corner_colour(name);
+  return std::ranges::count(names, name) > 0 || is_corner_colour(name) ||
+         is_of_whole_vector(name, properties);
 }
 
 void add_names(std::vector<std::string>& words, const std::vector<Property>& properties,
                const std::string& whose) {
   std::vector<std::string> names;
   for (const Property& property : properties)
-    if (!has_a_place(property.name)) names.push_back(property.name);
+    if (!has_a_place(property.name, properties)) names.push_back(property.name);
   if (!names.empty()) words.push_back(enumerated(names) + " of " + whose);
 }
 

@@ -1,10 +1,9 @@
 #include "io/repair/repaired_file.h"
 
 #include <algorithm>
-#include <cmath>
-#include <set>
 
 #include "io/attributes/corner_colours.h"
+#include "io/attributes/mixed_colour.h"
 #include "io/attributes/patched_texture.h"
 #include "io/attributes/turned_normals.h"
 #include "io/attributes/weightiest_label.h"
@@ -22,16 +21,17 @@ constexpr const char* source_face = "source_face";
 
 /// Whole numbers may be labels: of colours alone there is something between two of them.
 double mean_value(const Property& property, const std::vector<Vertex>& vertices) {
-  static const std::set<std::string> colours = {"red", "green", "blue", "alpha"};
-  if (!is_floating(property.type) && !colours.contains(property.name)) {
-    std::vector<std::pair<double, double>> labelled;
-    for (const Vertex v : vertices) labelled.emplace_back(property.values[v], 1);
-    return weightiest_label(labelled);
+  const bool is_colour = is_colour_name(property.name);
+  if (is_floating(property.type) && !is_colour) {
+    double sum = 0;
+    for (const Vertex v : vertices) sum += property.values[v];
+    return sum / static_cast<double>(vertices.size());
   }
-  double sum = 0;
-  for (const Vertex v : vertices) sum += property.values[v];
-  const double mean = sum / static_cast<double>(vertices.size());
-  return is_floating(property.type) ? mean : std::round(mean);
+  std::vector<std::pair<double, double>> weighed;
+  const double weight = 1 / static_cast<double>(vertices.size());
+  for (const Vertex v : vertices) weighed.emplace_back(property.values[v], weight);
+  return is_colour ? mixed_colour(property.name, property.type, weighed)
+                   : weightiest_label(weighed);
 }
 
 void gather_vertices(Property& property, const RepairedMesh& repaired) {

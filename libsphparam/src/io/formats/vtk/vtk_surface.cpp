@@ -22,15 +22,20 @@ struct KnownArray {
   VtkRole role;
   std::vector<std::string> names;  // what VTK and others call it
   std::vector<std::string> properties;
+  const char* what;  // for people
 };
 
 const std::vector<KnownArray>& known_arrays() {
   static const std::vector<KnownArray> known = {
-      {VtkRole::Normals, {"Normals", "normals"}, {"nx", "ny", "nz"}},
-      {VtkRole::Texcoords, {"TCoords", "Texture Coordinates", "TextureCoordinates"}, {"s", "t"}},
+      {VtkRole::Normals, {"Normals", "normals"}, {"nx", "ny", "nz"}, "normals"},
+      {VtkRole::Texcoords,
+       {"TCoords", "Texture Coordinates", "TextureCoordinates"},
+       {"s", "t"},
+       "texture coordinates"},
       {VtkRole::Colours,
        {"RGB", "RGBA", "Colors", "colors", "rgb", "rgba", "Color", "color"},
-       {"red", "green", "blue", "alpha"}}};
+       {"red", "green", "blue", "alpha"},
+       "colours"}};
   return known;
 }
 
@@ -59,14 +64,29 @@ const KnownArray* known_array(const VtkArray& array) {
   return nullptr;
 }
 
-/// A name that every format can keep, unlike those that are there.
-std::string free_name(const std::vector<Property>& properties, std::string name) {
+/// What the components of the known arrays among these are called.
+std::vector<std::string> component_names(const std::vector<VtkArray>& arrays) {
+  std::vector<std::string> names;
+  for (const VtkArray& array : arrays)
+    if (const KnownArray* const known = known_array(array))
+      names.insert(names.end(), known->properties.begin(), known->properties.end());
+  return names;
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// A name that every format can keep, unlike those that are there and those that are kept free.
+std::string free_name(const std::vector<Property>& properties, std::string name,
+                      const std::vector<std::string>& kept_free) {
   constexpr std::size_t longest_allowed = 64;
   name = name.substr(0, longest_allowed);
   for (char& c : name)
     if (!std::isgraph(static_cast<unsigned char>(c))) c = '_';
   const auto taken = [&](const std::string& candidate) {
     return candidate.empty() || candidate == "x" || candidate == "y" || candidate == "z" ||
+           contains(kept_free, candidate) ||
            std::any_of(properties.begin(), properties.end(),
                        [&](const Property& property) { return property.name == candidate; });
   };
@@ -103,8 +123,9 @@ bool is_named_so(const VtkArray& array, const KnownArray& known) {
 }
 
 /// Puts an array among the properties of points or cells, `count` of them, or notes why not.
-void adopt(const VtkArray& array, std::int64_t count, std::vector<Property>& properties,
-           Renamed& renamed, std::vector<std::string>& notes) {
+/// `of_vectors`: what components of known arrays are called; no other array gets such a name.
+void adopt(const VtkArray& array, std::int64_t count, const std::vector<std::string>& of_vectors,
+           std::vector<Property>& properties, Renamed& renamed, std::vector<std::string>& notes) {
   const auto leave = [&](const std::string& why) {
     add_loss(notes, "array " + quoted(array.name) + ": " + why);
   };
@@ -115,7 +136,9 @@ void adopt(const VtkArray& array, std::int64_t count, std::vector<Property>& pro
                                  [](double value) { return !std::isfinite(value); });
   if (odd > 0)
     return leave(std::to_string(odd) + " of its " + std::to_string(array.values.size()) +
-                 " numbers are not finite");
+                 " numbers (" +
+                 percent(static_cast<double>(odd) / static_cast<double>(array.values.size())) +
+                 ") are not finite, and a mesh keeps none of these");
   const KnownArray* const known = known_array(array);
   std::size_t kept = static_cast<std::size_t>(array.width);
   if (known && known->role == VtkRole::Texcoords && kept == 3) {
@@ -127,7 +150,8 @@ void adopt(const VtkArray& array, std::int64_t count, std::vector<Property>& pro
   std::vector<std::string> names;  // that are not what one expects
   for (std::size_t k = 0; k < kept; ++k) {
     const std::string expected = component_name(array, k, known);
-    Property property{free_name(properties, expected), array.type, {}};
+    const std::vector<std::string> kept_free = known ? std::vector<std::string>() : of_vectors;
+    Property property{free_name(properties, expected, kept_free), array.type, {}};
     if (property.name != expected || (known && !is_named_so(array, *known)))
       names.push_back(property.name);
     property.values.reserve(static_cast<std::size_t>(count));
@@ -136,6 +160,57 @@ void adopt(const VtkArray& array, std::int64_t count, std::vector<Property>& pro
     properties.push_back(std::move(property));
   }
   if (!names.empty()) renamed.add(array, names);
+}
+
+/// But for rounding, as of normals in bytes.
+bool are_unit_vectors(const std::vector<const VtkArray*>& components) {
+  constexpr double rounding = 0.01;
+  for (std::size_t i = 0; i < components.front()->values.size(); ++i) {
+    double square = 0;
+    for (const VtkArray* component : components)
+      square += component->values[i] * component->values[i];
+    if (std::abs(std::sqrt(square) - 1) > rounding) return false;
+  }
+  return true;
+}
+
+/// Whether single numbers are the vector that their names say, as where a .ply was converted.
+bool are_meant(VtkRole role, const std::vector<const VtkArray*>& components) {
+  if (role == VtkRole::Normals) return are_unit_vectors(components);
+  return role == VtkRole::Colours &&
+         std::ranges::all_of(components, [](const VtkArray* one) { return may_be_colours(*one); });
+}
+
+/// The arrays of single numbers that have these names; null for those that are not there.
+std::vector<const VtkArray*> single_numbers(const std::vector<VtkArray>& arrays,
+                                            const std::vector<std::string>& names,
+                                            std::int64_t count) {
+  std::vector<const VtkArray*> found;
+  for (const std::string& name : names) {
+    const auto at = std::ranges::find_if(arrays, [&](const VtkArray& array) {
+      return array.name == name && array.width == 1 && array.count() == count;
+    });
+    found.push_back(at == arrays.end() ? nullptr : &*at);
+  }
+  return found;
+}
+
+/// Tells of arrays of single numbers (entropy s, temperature t) that all else takes for a vector by
+/// their names. `of_vectors`: names that are not theirs any more.
+void tell_taken_names(const std::vector<VtkArray>& arrays, std::int64_t count,
+                      const std::vector<std::string>& of_vectors, std::vector<std::string>& notes) {
+  constexpr std::size_t most = 3;  // whether there is an alpha does not matter
+  for (const KnownArray& known : known_arrays()) {
+    std::vector<std::string> names = known.properties;
+    names.resize(std::min(names.size(), most));
+    const std::vector<const VtkArray*> components = single_numbers(arrays, names, count);
+    const bool is_taken =
+        !contains(of_vectors, names.front()) && std::ranges::count(components, nullptr) == 0;
+    if (is_taken && !are_meant(known.role, components))
+      add_loss(notes, enumerated(names) +
+                          " of points as numbers: arrays of these names are taken for " +
+                          known.what + ", others are not");
+  }
 }
 
 /// Properties of vertices and of faces that have one name: where it is asked for, those of vertices
@@ -158,6 +233,7 @@ void tell_shared_names(MeshFile& file) {
 void adopt_cells(const VtkSurface& surface, MeshFile& file) {
   Renamed renamed;
   const std::int64_t faces = surface.polygons.count(), before = surface.other_cells;
+  const std::vector<std::string> of_vectors = component_names(surface.cell_arrays);
   for (const VtkArray& array : surface.cell_arrays) {
     if (surface.has_strips) {
       add_loss(file.notes, "array " + quoted(array.name) + " of cells that are strips");
@@ -167,7 +243,7 @@ void adopt_cells(const VtkSurface& surface, MeshFile& file) {
     if (before > 0 && array.count() == before + faces)
       of_faces.values.erase(of_faces.values.begin(),
                             of_faces.values.begin() + before * array.width);
-    adopt(of_faces, faces, file.face_properties, renamed, file.notes);
+    adopt(of_faces, faces, of_vectors, file.face_properties, renamed, file.notes);
   }
   renamed.tell("cells", file.notes);
 }
@@ -279,12 +355,17 @@ MeshFile as_mesh_file(VtkSurface surface, const std::string& name, const ReadOpt
                          " of strips with a vertex twice: left out, as strips turn so");
   static constexpr std::array<std::string_view, 3> rays = {"sx", "sy", "sz"};
   Renamed renamed;
+  const std::vector<std::string> of_vectors = component_names(surface.point_arrays);
   for (const VtkArray& array : surface.point_arrays) {
     const bool wanted =
         !options.only_map || std::find(rays.begin(), rays.end(), array.name) != rays.end();
-    if (wanted) adopt(array, file.mesh.vertex_count(), file.vertex_properties, renamed, file.notes);
+    if (wanted)
+      adopt(array, file.mesh.vertex_count(), of_vectors, file.vertex_properties, renamed,
+            file.notes);
   }
   renamed.tell("points", file.notes);
+  if (!options.only_map)
+    tell_taken_names(surface.point_arrays, file.mesh.vertex_count(), of_vectors, file.notes);
   if (!options.only_map) {
     adopt_cells(surface, file);
     tell_shared_names(file);
