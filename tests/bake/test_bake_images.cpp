@@ -213,6 +213,54 @@ TEST_CASE("bake images: properties far from 0 keep the digits that float32 has n
   CHECK(baked(101325, 4000, "some.exr").warnings.empty());
 }
 
+TEST_CASE("bake images: a range that is given is that of integers, and what lies beyond is told") {
+  const Folder folder;
+  const auto baked = [&](double constant, std::pair<double, double> range, ScalarType type) {
+    MappedMesh whole = egg(3);
+    MeshFile file = whole.file();
+    const auto count = static_cast<size_t>(file.mesh.vertex_count());
+    file.set_vertex_property({"c", type, std::vector<double>(count, constant)});
+    const MappedMesh source({.file = std::move(file), .map = whole.map(), .name = "egg"});
+    BakeSettings settings = small;
+    settings.depth = SampleType::Uint16;
+    settings.fields.scalar_range = range;
+    return bake(source, {{"scalar:c", folder / "c.png"}}, settings).images[0];
+  };
+  const auto sample = [&] { return read_image(folder / "c.png").pixels.front() * 65535; };
+  const auto of_type = ScalarType::Float64;
+  for (const double step : {0.0, 1.0, 1000.0, 65535.0}) {
+    const BakedImage image = baked(step - 5, {-5, 65530}, of_type);
+    CHECK(image.range == std::pair(-5.0, 65530.0));
+    CHECK(image.beyond == 0);
+    CHECK(sample() == Approx(step).margin(1e-3));
+  }
+  const BakedImage far = baked(101325.25, {101325, 101326}, of_type);
+  CHECK(far.range == std::pair(101325.0, 101326.0));
+  CHECK(sample() == Approx(16384).margin(1e-2));
+  CHECK(baked(7, {0, 1}, of_type).beyond == 1);
+  CHECK(sample() == 65535);
+  CHECK(baked(-7, {0, 1}, of_type).beyond == 1);
+  CHECK(sample() == 0);
+  CHECK_THROWS_WITH(baked(3, {0, 1}, ScalarType::Int32),
+                    Catch::StartsWith("scalar:c: its whole numbers are labels"));
+  CHECK_THROWS_WITH(baked(3, {1, 1}, of_type), Catch::StartsWith("scalar_range: "));
+  CHECK_THROWS_WITH(baked(3, {0, HUGE_VAL}, of_type), Catch::StartsWith("scalar_range: "));
+}
+
+TEST_CASE("bake images: labels farther apart than any integer are told with all their digits") {
+  const Folder folder;
+  MappedMesh whole = egg(2);
+  MeshFile file = whole.file();
+  std::vector<double> labels(static_cast<size_t>(file.mesh.vertex_count()), -0x1p63);
+  labels.back() = 0x1p62;
+  file.set_vertex_property({"id", ScalarType::Int64, labels});
+  const MappedMesh source({.file = std::move(file), .map = whole.map(), .name = "egg"});
+  BakeSettings settings = small;
+  settings.depth = SampleType::Uint16;
+  CHECK_THROWS_WITH(bake(source, {{"scalar:id", folder / "c.png"}}, settings),
+                    Catch::Contains("scalar:id goes up to 13835058055282163712; no image holds"));
+}
+
 TEST_CASE("bake images: a property of one value is that value in floats, and lies in its range") {
   const Folder folder;
   for (const double constant : {101325.0, 0.1, -3e-7, 0.0}) {

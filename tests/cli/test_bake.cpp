@@ -429,6 +429,9 @@ TEST_CASE("bake: what cannot be done is said before anything is written") {
            {{"--map", "position", "--size", "34", "--convention", "envmap"}, 2, "multiple of 4"},
            {{"--map", "position", "--depth", "float"}, 2, "--depth"},
            {{"--map", "position", "--mip"}, 2, "--mip"},
+           {{"--map", "position", "--range", "0,1"}, 2, "--range is for --map scalar:NAME"},
+           {{"--map", "scalar:a", "--range", "1,1"}, 2, "--range: expected two numbers"},
+           {{"--map", "scalar:a", "--range", "0"}, 2, "--range: expected two numbers"},
            {{"--map", "position", "--samples", "0"}, 2, "--samples"},
            {{"--map", "normal-tangent", "--for", folder / "nothing.ply"}, 3, "nothing.ply"},
        }) {
@@ -440,6 +443,10 @@ TEST_CASE("bake: what cannot be done is said before anything is written") {
     CHECK_THAT(ended.err, Contains(mistake.said));
     CHECK(folder.names() == std::vector<std::string>{"broken.png"});
   }
+  const Ended floats = sphparam_program(
+      {"bake", "-", "--map", "scalar:a", "--range", "0,1", "-o", folder / "x.exr"}, obj);
+  CHECK(floats.code == 2);
+  CHECK_THAT(floats.err, Contains("--range is for --map scalar:NAME in integers: floats hold"));
   const Ended bare = sphparam_program({"bake", "-", "--texture", folder / "broken.png", "-o", out},
                                       obj_text(icosphere(1)));
   CHECK(bare.code != 0);

@@ -221,7 +221,7 @@ TEST_CASE("map: what the paper's method folds, the default method and --repair-m
              Contains("comment sphparam anew nothing of the method's own map is left"));
 }
 
-TEST_CASE("map: a mesh that is no sphere ends with 4, all its defects named, nothing written") {
+TEST_CASE("map: a mesh that is no sphere ends with 4, all its defects named, in the report too") {
   const Folder folder;
   TriangleMesh open = icosphere(2);
   open.triangles.conservativeResize(open.face_count() - 1, 3);
@@ -229,6 +229,32 @@ TEST_CASE("map: a mesh that is no sphere ends with 4, all its defects named, not
       {"map", "-", "-o", folder / "map.sph.ply", "--json", folder / "a"}, obj_text(open));
   CHECK(ended.code == 4);
   CHECK_THAT(ended.err, Contains("boundary"));
+  CHECK(folder.names() == std::vector<std::string>{"a"});
+  const Json told = Json::parse(bytes_of(folder / "a"));
+  CHECK(told["command"] == "map");
+  CHECK(told["input"]["file"] == "-");
+  CHECK(told["error"]["code"] == 4);
+  CHECK(told["inspection"]["mappable"] == false);
+  REQUIRE(told["inspection"]["defects"].size() == 1);
+  CHECK(told["inspection"]["defects"][0]["kind"] == "boundary-edge");
+  CHECK(told["inspection"]["defects"][0]["count"] == 3);
+  CHECK(told["repairs"].empty());
+}
+
+TEST_CASE("map: the report of a refusal is that of every subcommand, and lists the repairs") {
+  const Folder folder;
+  TriangleMesh open = icosphere(2);
+  open.triangles.conservativeResize(open.face_count() - 1, 3);
+  std::swap(open.triangles(20, 0), open.triangles(20, 1));
+  const Ended ended = sphparam_program(
+      {"bake", "-", "--map", "area", "--repair=orientation", "-o", folder / "x.png", "--json", "-"},
+      obj_text(open));
+  CHECK(ended.code == 4);
+  const Json told = Json::parse(ended.out);
+  CHECK(told["command"] == "bake");
+  REQUIRE(told["repairs"].size() == 1);
+  CHECK(told["repairs"][0]["kind"] == "face-turned");
+  CHECK(told["repairs"][0]["first"] == Json{20});
   CHECK(folder.names().empty());
 }
 

@@ -456,7 +456,9 @@ TEST_CASE("export: what an image says of its light is taken if it is a number of
   const auto strength = [&](const std::string& said) {
     ExportOptions options = small;
     options.look.emissive = place / "emissive.png";
-    write_image(options.look.emissive, Image(4, 2, 3), {.metadata = {{"sphparam:strength", said}}});
+    Image lamp(4, 2, 3);
+    lamp.pixels[0] = 1;
+    write_image(options.look.emissive, lamp, {.metadata = {{"sphparam:strength", said}}});
     return make_look(mapped_egg(1), options).materials.front().emissive_strength;
   };
   CHECK(strength("2.5") == 2.5);
@@ -489,7 +491,8 @@ MappedMesh scanned_egg() {
                    "unit: m", "source_vertices 9",          "copyright The Museum"};
   const auto count = static_cast<std::size_t>(file.mesh.vertex_count());
   file.set_vertex_property({"confidence", ScalarType::Float32, std::vector<double>(count, 0.5)});
-  file.set_vertex_property({"red", ScalarType::Uint8, std::vector<double>(count, 7)});
+  for (const char* name : {"nx", "ny", "nz"})
+    file.set_vertex_property({name, ScalarType::Float32, std::vector<double>(count, 0.5)});
   file.set_face_property(
       {"patch", ScalarType::Int32,
        std::vector<double>(static_cast<std::size_t>(file.mesh.face_count()), 3)});

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "gltf/images/image_kind.h"
 #include "gltf/images/jpeg_head.h"
@@ -19,6 +20,7 @@ namespace sphparam::tests {
 namespace {
 
 using Catch::Contains;
+using Json = nlohmann::json;
 using Words = std::vector<std::string>;
 using namespace std::string_literals;
 using namespace std::string_view_literals;
@@ -208,6 +210,62 @@ TEST_CASE("look: images that light falls on are told where no light is wanted") 
   // A mesh without light has none to lose.
   write_image(place / "a_basecolor.png", Image(4, 2, 3), {.metadata = {{"sphparam:unlit", "1"}}});
   CHECK(make_look(ball(1, "ball.ply"), options).warnings.empty());
+}
+
+TEST_CASE("look: what is the same all over takes no image, or one texel, which is told") {
+  const Place place;
+  const auto look_of = [&](const std::vector<float>& orm, const std::vector<float>& occlusion,
+                           const std::vector<float>& light) {
+    ExportOptions options;
+    const auto file = [&](const std::string& name, const std::vector<float>& colour) {
+      if (colour.empty()) return ""s;
+      Image image(8, 4, 3);
+      for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = colour[i % 3];
+      write_image(place / name, image);
+      return place / name;
+    };
+    options.look.orm = file("orm.png", orm);
+    options.look.occlusion = file("ao.png", occlusion);
+    options.look.emissive = file("light.png", light);
+    return make_look(ball(1, "ball.ply"), options);
+  };
+  const Look rough = look_of({1, 0.2F, 0.6F}, {}, {});
+  CHECK(rough.materials[0].metallic_roughness == -1);
+  CHECK(rough.materials[0].occlusion == -1);
+  CHECK(rough.materials[0].roughness == 0.2);
+  CHECK(rough.materials[0].metallic == 0.6);
+  CHECK(rough.images.size() == 1);  // the white base colour
+  CHECK(rough.remarks == Words{"orm.png is one colour: roughness 0.2 and metallic 0.6, without an "
+                               "image"});
+  const Json written = Json::parse(
+      write_gltf(make_asset(ball(1, "ball.ply"), rough), {.container = GltfContainer::Embedded})
+          .front()
+          .second)["materials"][0];
+  CHECK(written["pbrMetallicRoughness"]["roughnessFactor"] == 0.2);
+  CHECK(written["pbrMetallicRoughness"]["metallicFactor"] == 0.6);
+  CHECK_FALSE(written["pbrMetallicRoughness"].contains("metallicRoughnessTexture"));
+
+  const Look dim = look_of({0.4F, 1, 0}, {}, {});
+  CHECK(dim.materials[0].occlusion == 1);
+  CHECK(dim.materials[0].metallic_roughness == 1);
+  CHECK(decode_image({dim.images[1].bytes.begin(), dim.images[1].bytes.end()}, "o").width == 1);
+  CHECK(dim.remarks == Words{"orm.png is one colour: one texel"});
+
+  const Look bright = look_of({0.4F, 1, 0}, {1, 1, 1}, {0, 0, 0});
+  CHECK(bright.images.size() == 1);
+  CHECK(bright.materials[0].occlusion == -1);
+  CHECK(bright.materials[0].emissive == -1);
+  CHECK(bright.remarks ==
+        Words{"orm.png is one colour: roughness 1 and metallic 0, without an image",
+              "ao.png is one colour: it darkens nothing, and is left out",
+              "light.png is one colour: no light, and left out"});
+
+  const Look lamp = look_of({}, {0.5F, 0.5F, 0.5F}, {1, 0, 0});
+  REQUIRE(lamp.images.size() == 3);
+  for (std::size_t i : {1, 2}) {
+    const std::string& bytes = lamp.images[i].bytes;
+    CHECK(decode_image({bytes.begin(), bytes.end()}, "texel").pixels.size() == 3);
+  }
 }
 
 }  // namespace sphparam::tests

@@ -216,15 +216,39 @@ TEST_CASE("image codec: a JPEG that lacks nothing but its end is read, and says 
   }
 }
 
+namespace {
+
+// 8 × 8 greys in a progressive JPEG: the mean, and what differs from it, which is nothing.
+using namespace std::string_literals;
+const std::string progressive = "\xff\xd8\xff\xdb\0\x43\0"s + std::string(64, '\x01') +
+                                "\xff\xc2\0\x0b\x08\0\x08\0\x08\x01\x01\x11\0"s +
+                                "\xff\xc4\0\x14\0\x01"s + std::string(16, '\0') +
+                                "\xff\xc4\0\x14\x10\x01"s + std::string(16, '\0');
+const std::string mean_scan = "\xff\xda\0\x08\x01\x01\0\0\0\0\x7f"s;
+
+/// Of coefficients 1 to `last`, to the bit `low`.
+std::string other_scan(char last, char low) {
+  return "\xff\xda\0\x08\x01\x01\0\x01"s + last + low + '\x7f';
+}
+
+std::vector<char> characters(const std::string& bytes) { return {bytes.begin(), bytes.end()}; }
+
+}  // namespace
+
+TEST_CASE("image codec: a progressive JPEG that lacks nothing but its end is read, and says so") {
+  const std::string scans = mean_scan + other_scan(63, 0);
+  ImageTexts texts;
+  const Image image = decode_image(characters(progressive + scans), "p.jpg", {}, &texts);
+  CHECK(image.pixels == std::vector<float>(64, 128 / 255.0F));
+  CHECK(std::ranges::count(texts, ImageTexts::value_type{lacks_end_text, "1"}) == 1);
+  for (const std::string& lacking :
+       {other_scan(62, 0), other_scan(63, 1), other_scan(63, 0).substr(0, 10)})
+    CHECK_THROWS_WITH(decode_image(characters(progressive + mean_scan + lacking), "p.jpg"),
+                      Contains("p.jpg: is cut off"));
+}
+
 TEST_CASE("image codec: a progressive JPEG without an end may lack scans, and is refused") {
-  // 8 × 8 greys, and of their scans the first alone: the mean.
-  using namespace std::string_literals;
-  const std::string tables = "\xff\xd8\xff\xdb\0\x43\0"s + std::string(64, '\x01'),
-                    frame = "\xff\xc2\0\x0b\x08\0\x08\0\x08\x01\x01\x11\0"s,
-                    codes = "\xff\xc4\0\x14\0\x01"s + std::string(16, '\0'),
-                    scan = "\xff\xda\0\x08\x01\x01\0\0\0\0\x7f\xff\xd9"s,
-                    file = tables + frame + codes + scan;
-  const std::vector<char> whole(file.begin(), file.end());
+  const std::vector<char> whole = characters(progressive + mean_scan + "\xff\xd9");
   const Image image = decode_image(whole, "p.jpg");
   CHECK(image.width == 8);
   CHECK(image.pixels == std::vector<float>(64, 128 / 255.0F));

@@ -1,8 +1,10 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 
+#include "bake/baked_chart.h"
 #include "paint/paint_vertices.h"
 #include "sphparam/paint/paint.h"
 #include "support/direction_image.h"
@@ -73,6 +75,19 @@ TEST_CASE("paint: triangles that overlap are told by their numbers in the file")
   CHECK(overlap_warning(atlas, ball().file())
             .find("(3 and itself in another repetition of the image, for one)") !=
         std::string::npos);
+}
+
+TEST_CASE("paint: an image that was baked on another map of the mesh is told") {
+  const MappedMesh mapped = ball();
+  const auto warning = [&](const std::string& rays) {
+    const auto pyramid = std::make_shared<const TexturePyramid>(uniform_image(8, 0.5F));
+    return warning_of_map("a.png", {pyramid, Convention::Sphparam, "", rays}, mapped);
+  };
+  const std::string own = texts_of_map(mapped).front().second;
+  CHECK(warning("").empty());
+  CHECK(warning(own).empty());
+  CHECK(warning("7 rays, 12").empty());  // of another mesh
+  CHECK(warning("642 rays, 12").starts_with("a.png is baked on another map of this mesh than "));
 }
 
 TEST_CASE("paint: what an atlas cannot be is refused") {

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "arguments/ends.h"
 #include "console/places.h"
 #include "io/shell_word.h"
 #include "sphparam/image/image_format.h"
@@ -125,6 +126,14 @@ void declare_images(Declaration& command, BakeSettings& settings) {
                {"half", SampleType::Half},
                {"float", SampleType::Float}},
               "Of a channel (default: u8; data in .png, .tif: u16; .exr: half, data float)")
+      .parsed(
+          "--range", "MIN,MAX",
+          [&settings](const std::string& text) {
+            settings.fields.scalar_range = two_ends(text);
+            return settings.fields.scalar_range.has_value();
+          },
+          wanted_ends, "Of scalar:NAME: what the least and the greatest integer stand for")
+      .preset("as the numbers are")
       .choice("--normal-y", settings.fields.normal_y_down, {{"gl", false}, {"dx", true}},
               "Where green points in normal-tangent: up or down the image (default: gl)")
       .convention(settings.convention)
@@ -149,6 +158,23 @@ bool contains(const Words& words, const std::string& word) {
 
 bool shows_longitude(const BakeArguments& arguments) {
   return contains(arguments.maps, "lon") || contains(arguments.maps, "lonlat");
+}
+
+/// Whether a range of numbers is of use: floats hold them all as they are.
+bool has_integers(const BakeRequest& image, const BakeSettings& settings) {
+  const bool is_exr = image_format_of(image.path) == ImageFormat::Exr;
+  return settings.depth ? is_integer(*settings.depth) : !is_exr;
+}
+
+/// Throws: UsageMistake where nothing heeds the range.
+void require_ranged(const std::vector<BakeRequest>& images, const BakeSettings& settings) {
+  if (!settings.fields.scalar_range) return;
+  const bool is_heeded = std::ranges::any_of(images, [&](const BakeRequest& image) {
+    return image.field.starts_with("scalar:") && has_integers(image, settings);
+  });
+  if (!is_heeded)
+    throw UsageMistake(
+        "--range is for --map scalar:NAME in integers: floats hold all numbers as they are");
 }
 
 /// What is to be baked, with all channels where that word stands; nothing twice for it.
@@ -214,6 +240,7 @@ UsageMistake as_mistake(const BakeSettingError& error) {
       {"depth", "--depth"},
       {"mip", "--mip"},
       {"refine_poles", "--refine-poles"},
+      {"scalar_range", "--range"},
       {"rays", "--rays"},
       {"max_ray_distance", "--max-dist"},
       {"body", "--body"},
@@ -327,6 +354,7 @@ std::vector<BakeRequest> bake_requests(const BakeArguments& arguments) {
     throw UsageMistake("-o: several maps would go to " + image.path +
                        "; {map} in the name stands for each, as in statue_{map}.png");
   }
+  require_ranged(images, arguments.settings);
   check_all_places(arguments, images);
   return images;
 }

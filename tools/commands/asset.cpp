@@ -140,6 +140,7 @@ void tell(const RemadeAsset& made, const std::string& folder, TextureFormat text
 
 /// Before any work. A folder is no file that could be replaced.
 void require_sense(const AssetArguments& arguments) {
+  for (const std::string& remark : made.remarks) session.console.say("  " + remark);
   std::error_code hidden;  // what cannot be asked is not there, and making it says why
   if (is_mesh_name(arguments.output) && !fs::is_directory(arguments.output, hidden))
     check_places({{"-o", arguments.output}});

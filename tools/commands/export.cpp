@@ -117,6 +117,7 @@ class Exporter {
       told.push_back(
           "  cut as its chart: " + counted(record_.charts.front().triangles, "triangle") + ", " +
           counted(record_.charts.front().vertices, "vertex", "vertices"));
+    for (const std::string& remark : remarks_) told.push_back("  " + remark);
     if (options_.look.textures != TextureFormat::Given)
       told.push_back("  " + words_of(record_.textures));
     for (const std::string& line : level_lines(record_)) told.push_back("  " + line);
@@ -143,6 +144,7 @@ class Exporter {
                           .transfer = look.vertex_colours ? Words{"color"} : Words{},
                           .threads = options_.threads,
                           .progress = options_.progress});
+    remarks_ = look.remarks;
     note_levels(mapped, coarser);
     measure(mapped, coarser);
     if (arguments_.lod_style == LodStyle::Msft) std::swap(options_.coarser, coarser);
@@ -238,6 +240,7 @@ class Exporter {
   ExportOptions options_;
   Outputs places_ = {{"--json", arguments_.json}};
   ExportRecord record_;
+  Words remarks_;                // on the images
   std::size_t image_bytes_ = 0;  // in all files
 };
 

@@ -64,11 +64,13 @@ void require_sensible(const PaintArguments& arguments) {
   check_places({{"-o", arguments.output}});
 }
 
-EquirectangularImage read_picture(const PaintArguments& arguments, Console& console) try {
+EquirectangularImage read_picture(const PaintArguments& arguments, const MappedMesh& source,
+                                  Console& console) try {
   EquirectangularImage image =
       read_equirectangular(arguments.image, arguments.convention, arguments.threads);
   for (const std::string& warning :
-       {warning_of_shape(arguments.image, image.width(), image.height()), image.warning()})
+       {warning_of_shape(arguments.image, image.width(), image.height()), image.warning(),
+        warning_of_map(display_name(arguments.image), image, source)})
     if (!warning.empty()) console.warning(warning);
   return image;
 } catch (const ImageOfOtherConvention& error) {
@@ -115,7 +117,7 @@ int run_paint(PaintArguments& arguments) {
   Session session(arguments);
   const MappedMesh source = read_painted(arguments, session);
   tell_longitudes(source, arguments.convention, false, std::nullopt, session);
-  const EquirectangularImage image = read_picture(arguments, session.console);
+  const EquirectangularImage image = read_picture(arguments, source, session.console);
   Words losses;
   if (arguments.atlas > 0) {
     session.files.add(arguments.output, atlas(arguments, source, image, session));

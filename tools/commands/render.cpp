@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "arguments/ends.h"
 #include "arguments/limits.h"
 #include "commands/command.h"
 #include "commands/data_files.h"
@@ -62,18 +63,9 @@ Vector3 parse_direction(const std::string& text) {
 }
 
 std::pair<double, double> parse_range(const std::string& text) {
-  const Words words = split(text);
-  std::pair<double, double> range;
-  const auto read = [&words](size_t i, double& value) {
-    const char* const first = words[i].data() + words[i].starts_with('+');
-    std::from_chars(first, words[i].data() + words[i].size(), value);
-    return complaint_of_number(words[i], Range<double>{std::numeric_limits<double>::lowest()})
-        .empty();
-  };
-  if (words.size() != 2 || !read(0, range.first) || !read(1, range.second) ||
-      !(range.first < range.second))
-    throw UsageMistake("--range: expected two numbers, the smaller one first, as in -0.1,0.1");
-  return range;
+  const auto ends = two_ends(text);
+  if (!ends) throw UsageMistake(std::string("--range: ") + wanted_ends);
+  return *ends;
 }
 
 /// Throws UsageMistake where something is wanted that only a map has.

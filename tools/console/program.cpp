@@ -15,6 +15,7 @@
 #include <exception>
 #include <map>
 #include <new>
+#include <optional>
 #include <span>
 #include <sstream>
 #include <string>
@@ -41,6 +42,7 @@
 #include "sphparam/io/paths.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/mesh/mesh_defects.h"
+#include "sphparam/records/inspection_record.h"
 #include "sphparam/version.h"
 #include "sphparam/words.h"
 
@@ -154,6 +156,45 @@ std::string hint_of_image(const CLI::App& command, const std::string& word) {
   const Words kinds = names_of(field_makers(), [](const FieldMaker& maker) { return maker.name; });
   const bool is_kind = std::ranges::count(kinds, word.substr(0, word.find(':'))) > 0;
   return command.get_name() == "bake" && is_kind ? "; --map " + word + " bakes it" : "";
+}
+
+/// Where --json of this subcommand goes; empty: nowhere.
+std::string report_of(const CLI::App& command) {
+  const CLI::Option* const json = command.get_option_no_throw("--json");
+  return json && json->count() > 0 ? json->as<std::string>() : "";
+}
+
+/// What --json tells of an error that is about a mesh; nothing for others.
+std::optional<RefusalRecord> refusal_of(const std::exception& error, const std::string& command) {
+  RefusalRecord record{.command = command, .file = {}, .message = error.what()};
+  if (const auto* const of_mesh = dynamic_cast<const MeshError*>(&error)) {
+    record.defects = of_mesh->defects();
+    record.code = MeshUnusable;
+  }
+  if (const auto* const of_file = dynamic_cast<const MeshRefusal*>(&error)) {
+    record.file = of_file->path();
+    record.repairs = of_file->done();
+  }
+  if (dynamic_cast<const UnmeasurableMesh*>(&error) ||
+      dynamic_cast<const std::range_error*>(&error))
+    record.code = MeshUnusable;
+  if (dynamic_cast<const NotCertifiedError*>(&error)) record.code = NotCertified;
+  if (record.code == 0) return std::nullopt;
+  return record;
+}
+
+/// Where nothing comes of a mesh, --json says why.
+int run_reported(const Command& command) try {
+  return command.run();
+} catch (const std::exception& error) {
+  const std::string path = report_of(*command.options);
+  const auto record = path.empty() ? std::nullopt : refusal_of(error, command.options->get_name());
+  if (record) try {
+      write_file(path, to_json(*record));
+    } catch (const WriteError& unwritten) {
+      print_error(unwritten.what());
+    }
+  throw;
 }
 
 /// The subcommand that was asked for, of a subcommand where that has some; else the program.
@@ -296,7 +337,7 @@ int run_program(int argc, char** argv) {
     program.app.parse(argc, argv);
     if (const Command* const command = program.asked_for()) {
       note_files_read(*command->options);
-      return command->run();
+      return run_reported(*command);
     }
   } catch (const CLI::Success& help_or_version) {
     return tell(program.app, help_or_version);

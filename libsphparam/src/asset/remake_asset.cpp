@@ -49,6 +49,13 @@ std::string advice_for_assets(std::string warning) {
   return warning;
 }
 
+/// What stages say of one mesh, each with what it means to them: "the mesh is inside out: …".
+bool say_the_same(const std::string& one, const std::string& other) {
+  const std::size_t end = one.find(": ");
+  const bool of_mesh = one.starts_with("the mesh is ") && end != std::string::npos;
+  return one == other || (of_mesh && other.starts_with(one.substr(0, end + 2)));
+}
+
 constexpr double walls_beyond = 2.5;  // voxels from the asset, which a wrap is one away from
 
 class Remaker {
@@ -172,6 +179,7 @@ class Remaker {
     std::ranges::copy(written, std::back_inserter(remade_.files));
     remade_.sizes = words_of(written, bytes_of(made.images));
     remade_.textures = look.textures;
+    remade_.remarks = look.remarks;
   }
 
   void add_page(const Look& look) {
@@ -187,10 +195,11 @@ class Remaker {
 
   /// Each once: stages tell the same of one mesh.
   void append(const std::vector<std::string>& warnings) {
-    for (const std::string& warning : warnings)
-      if (const std::string line = advice_for_assets(warning);
-          std::ranges::find(remade_.warnings, line) == remade_.warnings.end())
-        remade_.warnings.push_back(line);
+    for (const std::string& warning : warnings) {
+      const std::string line = advice_for_assets(warning);
+      const auto is_said = [&](const std::string& said) { return say_the_same(said, line); };
+      if (std::ranges::none_of(remade_.warnings, is_said)) remade_.warnings.push_back(line);
+    }
   }
 
   const MeshSource& asset_;

@@ -42,6 +42,11 @@ void require_domains(const BakeSettings& settings) {
   const double reach = settings.fields.max_ray_distance;
   if (!(reach > 0 && std::isfinite(reach)))
     refuse("max_ray_distance", reach, "a finite number above 0");
+  if (const auto& range = settings.fields.scalar_range) {
+    const bool are_ends = std::isfinite(range->first) && std::isfinite(range->second);
+    if (!are_ends || !(range->first < range->second))
+      throw BakeSettingError("scalar_range", "two finite numbers, the smaller one first");
+  }
   const double calm = settings.calm_beyond;
   if (!(calm >= 0 && std::isfinite(calm)))
     refuse("calm_beyond", calm, "a finite number, at least 0");

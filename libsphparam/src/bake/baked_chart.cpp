@@ -12,7 +12,7 @@ namespace sphparam {
 namespace {
 
 constexpr std::string_view interpolation = "sphparam:interpolation",
-                           wedges = "sphparam:refine_poles", rays = "sphparam:rays";
+                           wedges = "sphparam:refine_poles";
 
 /// FNV-1a of the coordinates as float32, −0 as 0, little-endian: what differs less is one map,
 /// written and read.
@@ -41,12 +41,12 @@ ImageTexts texts_of_map(const MappedMesh& mapped) {
   char digits[16];
   const auto end =
       std::to_chars(digits, digits + sizeof digits, hash_of(mapped.map().points), 16).ptr;
-  return {{std::string(rays), head_of_rays(mapped) + std::string(digits, end)}};
+  return {{std::string(rays_text), head_of_rays(mapped) + std::string(digits, end)}};
 }
 
 std::string warning_of_other_map(const std::string& name, const ImageTexts& texts,
                                  const MappedMesh& mapped) {
-  const std::string_view said = baked_text(texts, rays);
+  const std::string_view said = baked_text(texts, rays_text);
   if (!said.starts_with(head_of_rays(mapped)) || said == texts_of_map(mapped).front().second)
     return "";
   return name + " is baked on another map of this mesh than " + mapped.name() +

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "bake/field_registry.h"
@@ -65,6 +66,13 @@ std::string other_depth(const SurfaceField& field, SampleType type) {
   return "; no image holds these numbers: number them anew";
 }
 
+/// All digits of a whole number, of any size.
+std::string digits_of(double whole) {
+  char text[400];
+  std::snprintf(text, sizeof text, "%.0f", whole);
+  return text;
+}
+
 /// Numbers that are rounded would name other faces.
 void require_exact_labels(const PlannedImage& image) {
   if (image.field.kind != FieldKind::Label || !image.field.range ||
@@ -74,9 +82,8 @@ void require_exact_labels(const PlannedImage& image) {
   const double most = exact_numbers(type), needed = needed_for(image.field, type);
   if (needed <= most) return;
   throw BakeSettingError("depth", std::string(name_of(type)) + " holds whole numbers up to " +
-                                      std::to_string(std::lround(most)) + " exactly; " +
-                                      image.field.name + " goes up to " +
-                                      std::to_string(std::lround(needed)) +
+                                      digits_of(most) + " exactly; " + image.field.name +
+                                      " goes up to " + digits_of(needed) +
                                       other_depth(image.field, type));
 }
 

@@ -97,11 +97,18 @@ class Builder {
     return {{"sampler", 0}, {"extensions", {{"EXT_texture_webp", {{"source", image}}}}}};
   }
 
+  /// 0 and 1 as whole ones.
+  static Json number(double factor) {
+    return factor == 0 || factor == 1 ? Json(static_cast<int>(factor)) : Json(factor);
+  }
+
   void add_material(const Material& material) {
-    Json pbr{{"metallicFactor", 0}, {"roughnessFactor", 1}};
+    const double metallic = material.unlit ? 0 : material.metallic,
+                 roughness = material.unlit ? 1 : material.roughness;
+    Json pbr{{"metallicFactor", number(metallic)}, {"roughnessFactor", number(roughness)}};
     if (material.base_colour >= 0) pbr["baseColorTexture"] = {{"index", material.base_colour}};
     if (material.metallic_roughness >= 0 && !material.unlit) {
-      pbr["metallicFactor"] = 1;
+      pbr["metallicFactor"] = pbr["roughnessFactor"] = 1;
       pbr["metallicRoughnessTexture"] = {{"index", material.metallic_roughness}};
     }
     Json entry{{"name", material.name}, {"pbrMetallicRoughness", std::move(pbr)}};

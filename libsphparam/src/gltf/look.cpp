@@ -2,6 +2,7 @@
 // baked comes in u = θ/2π and has its columns moved, by quarters of the width.
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -24,6 +25,7 @@
 #include "io/attributes/one_material.h"
 #include "io/attributes/shading_normals.h"
 #include "io/attributes/source_attributes.h"
+#include "number_text.h"
 #include "sphparam/bake/fields.h"
 #include "sphparam/chart/chart_failure.h"
 #include "sphparam/gltf/export.h"
@@ -117,9 +119,8 @@ class LookMaker {
       tell_unlit(given);
     } else {
       add_normals(given.normal);
-      material_.metallic_roughness = add_file(given.orm, "orm");
-      material_.occlusion = given.occlusion.empty() ? material_.metallic_roughness
-                                                    : add_file(given.occlusion, "occlusion");
+      add_roughness(given);
+      add_occlusion(given.occlusion);
       add_emission(given.emissive);
       // Tangents that no material uses are taken for a mistake: these are used and change nothing.
       if (material_.normal < 0 && wanted_.tangents) material_.normal = add(flat_normals_image());
@@ -150,15 +151,58 @@ class LookMaker {
     return static_cast<int>(look_.images.size()) - 1;
   }
 
-  int add_file(const std::string& path, const std::string& name) {
-    return path.empty() ? -1 : add(read(path, name).asset);
+  void remark(const std::string& path, const std::string& what) {
+    look_.remarks.push_back(display_name(path) + " is one colour: " + what);
+  }
+
+  /// One texel where all are the same, which is told.
+  int add_small(const std::string& path, GivenImage given) {
+    if (!uniform_colour(given.pixels) || given.pixels.width * given.pixels.height == 1)
+      return add(std::move(given.asset));
+    Image texel(1, 1, given.pixels.channels);
+    texel.pixels.assign(given.pixels.pixel(0, 0), given.pixels.pixel(0, 0) + texel.channels);
+    remark(path, "one texel");
+    return add(as_png(given.asset.name, texel));
+  }
+
+  /// Roughness and metallic are numbers where they are the same all over and no occlusion goes with
+  /// them.
+  void add_roughness(const BakedImages& images) {
+    if (images.orm.empty()) return;
+    GivenImage given = read(images.orm, "orm");
+    const auto same = uniform_colour(given.pixels);
+    const bool shows_occlusion = images.occlusion.empty() && same && (*same)[0] < 1;
+    if (!same || shows_occlusion) {
+      material_.metallic_roughness = add_small(images.orm, std::move(given));
+      if (images.occlusion.empty()) material_.occlusion = material_.metallic_roughness;
+      return;
+    }
+    constexpr double digits = 1e6;
+    const auto factor = [](float x) {
+      return std::round(static_cast<double>(x) * digits) / digits;
+    };
+    material_.roughness = factor((*same)[1]);
+    material_.metallic = factor((*same)[2]);
+    remark(images.orm, "roughness " + short_number(material_.roughness) + " and metallic " +
+                           short_number(material_.metallic) + ", without an image");
+  }
+
+  void add_occlusion(const std::string& path) {
+    if (path.empty()) return;
+    GivenImage given = read(path, "occlusion");
+    const auto same = uniform_colour(given.pixels);
+    if (same && (*same)[0] == 1) return remark(path, "it darkens nothing, and is left out");
+    material_.occlusion = add_small(path, std::move(given));
   }
 
   void add_emission(const std::string& path) {
     if (path.empty()) return;
     GivenImage given = read(path, "emissive");
-    material_.emissive = add(std::move(given.asset));
-    material_.emissive_strength = number_in(baked_text(given.texts, strength_text), 1);
+    if (uniform_colour(given.pixels) == std::array{0.0F, 0.0F, 0.0F})
+      return remark(path, "no light, and left out");
+    const double strength = number_in(baked_text(given.texts, strength_text), 1);
+    material_.emissive = add_small(path, std::move(given));
+    material_.emissive_strength = strength;
   }
 
   void add_normals(const std::string& path) {

@@ -6,12 +6,14 @@
 #include <utility>
 #include <vector>
 
+#include "bake/baked_chart.h"
 #include "image/image_codec.h"
 #include "io/attributes/texture_pages.h"
 #include "option_domain.h"
 #include "paint/paint_atlas.h"
 #include "paint/paint_vertices.h"
 #include "sphparam/io/sphere_file.h"
+#include "texture/baked_texts.h"
 
 namespace sphparam {
 namespace {
@@ -33,6 +35,11 @@ Property channel_of(const Image& colours, const std::string& name, size_t channe
 }
 
 }  // namespace
+
+std::string warning_of_map(const std::string& name, const EquirectangularImage& image,
+                           const MappedMesh& mapped) {
+  return warning_of_other_map(name, {{std::string(rays_text), image.rays()}}, mapped);
+}
 
 MeshFile paint_vertices(const MappedMesh& mapped, const EquirectangularImage& image,
                         const PaintOptions& options) {

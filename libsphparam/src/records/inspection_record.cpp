@@ -126,7 +126,24 @@ Json trial_json(const MeshSource& source, const std::optional<RepairTrial>& tria
           {"remaining", remaining}};
 }
 
+/// Null where it is no matter of defects.
+Json defects_json(const std::vector<MeshDefect>& defects) {
+  if (defects.empty()) return nullptr;
+  Json all = Json::array();
+  for (const MeshDefect& defect : defects) all.push_back(defect_json(defect));
+  return {{"mappable", false}, {"defects", all}};
+}
+
 }  // namespace
+
+std::string to_json(const RefusalRecord& record) {
+  return text_of({{"sphparam", version},
+                  {"command", record.command},
+                  {"input", record.file.empty() ? Json() : Json{{"file", record.file}}},
+                  {"error", {{"code", record.code}, {"message", record.message}}},
+                  {"inspection", defects_json(record.defects)},
+                  {"repairs", repairs_json(record.repairs)}});
+}
 
 std::string to_json(const InspectionRecord& record) {
   const std::optional<ClosedHoles> closed = closed_holes(record.source.file);

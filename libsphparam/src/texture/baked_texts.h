@@ -8,6 +8,9 @@
 
 namespace sphparam {
 
+/// Which map an image was baked on: how many rays, and a hash of them.
+constexpr std::string_view rays_text = "sphparam:rays";
+
 /// The text that an image's metadata has below this name of ours; empty: not there. JPEG and TIFF
 /// hold ours in one text, a line each.
 std::string_view baked_text(const ImageTexts& texts, std::string_view key);

@@ -127,7 +127,8 @@ EquirectangularImage read_equirectangular(const std::string& path, Convention co
   }
   const std::string light = words_of_light(path, image, linear);
   return {std::make_shared<const TexturePyramid>(image, linear, threads), convention,
-          file_warning(display_name(path), texts, linear, light)};
+          file_warning(display_name(path), texts, linear, light),
+          std::string(baked_text(texts, rays_text))};
 }
 
 }  // namespace sphparam

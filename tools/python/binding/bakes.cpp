@@ -59,6 +59,7 @@ void take_fields(Settings& settings, FieldOptions& fields) {
       .take("heat", fields.heat)
       .take("rays", fields.rays)
       .take("max_ray_distance", fields.max_ray_distance)
+      .take("range", fields.scalar_range)
       .take("filter", fields.filter,
             {TextureFilter::Nearest, TextureFilter::Bilinear, TextureFilter::Bicubic},
             [](TextureFilter filter) { return word_of(filter); });

@@ -34,7 +34,7 @@ py::tuple paint(const Mapped& mapped, const FilePath& path, const std::string& c
         found.push_back(channel->values);
     }
     std::vector<std::string> told = {warning_of_shape(path, image.width(), image.height()),
-                                     image.warning()};
+                                     image.warning(), warning_of_map(path, image, mesh)};
     std::erase(told, "");
     return std::pair(std::move(found), std::move(told));
   });
@@ -55,7 +55,8 @@ py::tuple paint_texture(const Mapped& mapped, const FilePath& path, const std::s
     PaintedAtlas painted = paint_atlas(
         mesh, image, {.size = size, .padding = padding, .threads = threads, .progress = report});
     std::vector<std::string> told = {warning_of_shape(path, image.width(), image.height()),
-                                     image.warning(), overlap_warning(painted, mesh.file())};
+                                     image.warning(), warning_of_map(path, image, mesh),
+                                     overlap_warning(painted, mesh.file())};
     std::erase(told, "");
     return std::pair(std::move(painted.image), std::move(told));
   });

@@ -40,6 +40,8 @@ def _baking(given: Dict[str, Any]) -> Dict[str, Any]:
     if _arrays.text(given["unit"], "unit") not in _units:
         raise ValueError(f"unit: 'm' or 'km', not {given['unit']!r}")
     options["unit"] = _units[given["unit"]]
+    if given.get("range") is not None:
+        options["range"] = _arrays.least_and_greatest(given["range"], "range")
     if given["centre"] is not None:
         options["centre"] = _arrays.three(given["centre"], "centre")
     if given["texture"] is not None:
@@ -205,6 +207,7 @@ class MapImages(MapFacts):
         texture: Optional[Path] = None,
         filter: str = "bilinear",
         wrap: str = "repeat",
+        range: Optional[Tuple[float, float]] = None,
         heat: bool = False,
         normal_y_down: bool = False,
         height_radial: bool = False,
@@ -224,12 +227,15 @@ class MapImages(MapFacts):
 
         ``images`` is field to path, a ``.png``, ``.jpg``, ``.tif`` or ``.exr``. ``depth``: ``"uint8"``,
         ``"uint16"``, ``"half"``, ``"float"``, as the format has them. ``mip``: tiles and all levels, EXR
-        only. The others are those of :meth:`bake`. With a ``body``, files beside ``.png`` and ``.tif`` tell
-        GDAL and QGIS where they lie.
+        only. ``range``: of ``"scalar:NAME"``, what the least and the greatest integer stand for, so that
+        images can be compared; None: the least and the greatest number of each. The others are those of
+        :meth:`bake`. With a ``body``, files beside ``.png`` and ``.tif`` tell GDAL and QGIS where they lie.
         """
         surface = _taken_once(surface)
         options = _baking(locals())
         pairs = _wanted(images)
+        if range is not None and not any(name.startswith("scalar:") for name, _ in pairs):
+            raise ValueError("range: what integers of scalar:NAME stand for, which is not baked")
         for name, _ in pairs:
             self._require_scalar(name, surface)
         with told(progress) as report:

@@ -35,6 +35,7 @@ struct RemadeAsset {
   std::string sizes = {};                     // of the .glb and its images, in words for people
   std::vector<TextureFigures> textures = {};  // what became of these
   std::vector<std::string> warnings = {};
+  std::vector<std::string> remarks = {};                     // on images of one colour
   bool viewer_is_missing = false;                            // the page has pictures only
   std::vector<std::pair<std::string, double>> seconds = {};  // of each stage
 };

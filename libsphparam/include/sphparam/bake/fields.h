@@ -20,6 +20,10 @@ struct FieldOptions {
   bool heat = false;              // distortion and curvature as colours instead of numbers
   int rays = 64;                  // a sample, of ao, bent and thickness: 1 to 65536
   double max_ray_distance = 0.1;  // of ao and bent, in diagonals of the bounding box: positive
+  // Of scalars that measure, in integers: what 0 and the greatest one stand for, so that images of
+  // several meshes or times can be compared. Numbers beyond end there, which is told. None: the
+  // least and the greatest of the mesh's own.
+  std::optional<std::pair<double, double>> scalar_range = {};
   // Of lon, lat, radius, slope and elevation: the body's centre, in the mesh's coordinates; none:
   // that of a radial map, else the origin.
   std::optional<Vector3> centre = {};

@@ -55,8 +55,9 @@ struct AssetImage {
 struct Material {
   std::string name;
   int base_colour = -1, normal = -1;
-  int occlusion = -1;           // in red
-  int metallic_roughness = -1;  // roughness in green, metallic in blue; −1: rough, no metal
+  int occlusion = -1;                  // in red
+  int metallic_roughness = -1;         // roughness in green, metallic in blue; −1: as numbers:
+  double roughness = 1, metallic = 0;  // the same all over
   int emissive = -1;
   double emissive_strength = 1;  // times the image
   AlphaMode alpha_mode = AlphaMode::Opaque;

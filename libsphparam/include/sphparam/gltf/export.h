@@ -102,6 +102,7 @@ struct Look {
   bool vertex_colours = false;                // what is seen are the colours of the vertices
   std::vector<TextureFigures> textures = {};  // what became of the images, one each
   std::vector<std::string> warnings = {};     // for people: materials that disagree
+  std::vector<std::string> remarks = {};      // likewise: images that are one colour, made small
 
   bool has_normals() const { return !materials.empty() && materials.front().normal >= 0; }
 };
@@ -110,7 +111,9 @@ struct Look {
 /// both sides, without light, with which finish, and how strong emission is; alpha of others that
 /// is used is a mask where it is 0 or 1 everywhere, else blended. Normal maps that say of
 /// themselves that they show other things or have y down are refused, those for a mesh of another
-/// name told. Occlusion is that of `orm` where no other is given.
+/// name told. Occlusion is that of `orm` where no other is given. What is the same all over takes
+/// no image: roughness and metallic are numbers then, occlusion that darkens nothing and emission
+/// that is black are left out; other occlusion and emission are one texel.
 ///
 /// What is seen: the images that are named; else the mesh's own textures, baked; else the colours
 /// of its vertices; else white under a normal or occlusion map, a checker without. The variants

@@ -19,6 +19,11 @@ class AtlasError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A warning for people where an image says that it was baked on another map of this mesh, and so
+/// stands elsewhere on it; empty: it does not, or nobody knows. `name`: of the image. Cost: O(#V).
+std::string warning_of_map(const std::string& name, const EquirectangularImage& image,
+                           const MappedMesh& mapped);
+
 struct PaintOptions {
   int threads = 0;         // 0: all cores
   Progress progress = {};  // "painting vertices"

@@ -2,9 +2,11 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "sphparam/io/mesh_source.h"
 #include "sphparam/io/repair_advice.h"
+#include "sphparam/mesh/mesh_defects.h"
 
 namespace sphparam {
 
@@ -16,6 +18,19 @@ struct InspectionRecord {
   double seconds = 0;
   std::optional<PartsTrial> parts = {};  // where components must be chosen from
 };
+
+/// Why a subcommand made nothing of a mesh.
+struct RefusalRecord {
+  std::string command;  // "map"
+  std::string file;     // empty: nobody knows
+  int code = 0;         // as the program exits
+  std::string message;
+  std::vector<MeshDefect> defects = {};    // none: it is no matter of these
+  std::vector<RepairAction> repairs = {};  // done before it was refused
+};
+
+/// As --json of any subcommand tells it, in the place of its own report.
+std::string to_json(const RefusalRecord& record);
 
 /// As `sphparam info --json` tells it.
 std::string to_json(const InspectionRecord& record);

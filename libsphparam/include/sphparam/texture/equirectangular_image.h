@@ -26,10 +26,11 @@ class EquirectangularImage {
  public:
   /// Shares the pyramid.
   EquirectangularImage(std::shared_ptr<const TexturePyramid> pyramid, Convention convention,
-                       std::string warning = {})
+                       std::string warning = {}, std::string rays = {})
       : pyramid_(std::move(pyramid)),
         convention_(info_of(convention)),
-        warning_(std::move(warning)) {}
+        warning_(std::move(warning)),
+        rays_(std::move(rays)) {}
   /// The pyramid outlives it.
   EquirectangularImage(const TexturePyramid& pyramid, Convention convention)
       : pyramid_(std::shared_ptr<void>(), &pyramid), convention_(info_of(convention)) {}
@@ -44,11 +45,13 @@ class EquirectangularImage {
   /// What its file has that is not heeded or cut off (a colour profile, values outside of 0 to 1),
   /// or that is measured and no colour; empty: nothing.
   const std::string& warning() const { return warning_; }
+  /// Which map its file says that it was baked on, as the text "sphparam:rays" has it; empty: none.
+  const std::string& rays() const { return rays_; }
 
  private:
   std::shared_ptr<const TexturePyramid> pyramid_;
   ConventionInfo convention_;
-  std::string warning_;
+  std::string warning_, rays_;
 };
 
 /// The warning for people that an image is not twice as wide as high, as one of the whole sphere

@@ -51,6 +51,13 @@ void require_float32(const std::string& field, const std::pair<double, double>& 
   if (size > 0 && size < static_cast<double>(Float::min())) refuse("small", "least", Float::min());
 }
 
+/// A range would cut labels to others.
+void require_measure(const Property& property) {
+  if (is_floating(property.type)) return;
+  throw FieldError("scalar:" + property.name +
+                   ": its whole numbers are labels, of which no range leaves some out");
+}
+
 /// Mixes the lower 24 bits one to one; 0 stays 0. Our own: each step, x ^ x >> 12 and a product
 /// with an odd number modulo 2^24, has an inverse.
 std::uint32_t mixed(std::uint32_t x) {
@@ -231,10 +238,14 @@ SurfaceField make_texcoords(const BakeScene& scene, const std::string&) {
 
 SurfaceField make_scalar(const BakeScene& scene, const std::string& name) {
   const MeshFile& file = scene.source.file();
-  const auto described = [&name](const Property& property) {
+  const auto described = [&](const Property& property) {
     SurfaceField field{
         .name = "scalar:" + name, .about = "property " + name, .range = range_of(property.values)};
     require_float32(field.name, *field.range);
+    if (const auto& wanted = scene.options.scalar_range) {
+      require_measure(property);
+      field.range = wanted;
+    }
     const double origin = origin_of(property, *field.range);
     field.origin[0] = origin;
     field.range = std::pair(field.range->first - origin, field.range->second - origin);

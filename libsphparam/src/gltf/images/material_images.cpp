@@ -87,6 +87,15 @@ GivenImage read_asset_image(const std::string& path, const std::string& name,
   return given;
 }
 
+std::optional<std::array<float, 3>> uniform_colour(const Image& image) {
+  const auto channels = static_cast<std::size_t>(image.channels);
+  const std::vector<float>& pixels = image.pixels;
+  if (pixels.empty() || !std::equal(pixels.begin() + image.channels, pixels.end(), pixels.begin()))
+    return std::nullopt;
+  const auto channel = [&](std::size_t c) { return pixels[channels < 3 ? 0 : c]; };
+  return std::array{channel(0), channel(1), channel(2)};
+}
+
 AlphaMode alpha_mode_of(const Image& image) {
   if (image.channels % 2 != 0) return AlphaMode::Opaque;
   const auto channels = static_cast<std::size_t>(image.channels);

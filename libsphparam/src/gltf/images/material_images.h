@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,10 @@ struct GivenImage {
 /// twice as wide as high, and where a JPEG does not stay.
 GivenImage read_asset_image(const std::string& path, const std::string& name,
                             std::vector<std::string>& warnings);
+
+/// What all pixels of an image have, of the channels of colours; grey thrice. Nothing where they
+/// differ.
+std::optional<std::array<float, 3>> uniform_colour(const Image& image);
 
 /// How alpha is meant in an image that does not say it, as those of strangers: as a mask where it
 /// is 0 or 1 everywhere, else blended. Opaque where there is none, where it is 1 everywhere, and

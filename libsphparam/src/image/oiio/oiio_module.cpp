@@ -5,11 +5,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <bitset>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <limits>
+#include <map>
 #include <memory>
 #include <new>
 #include <optional>
@@ -130,18 +132,53 @@ class Jpeg {
   /// the end, as films of telephones are, does not matter.)
   bool lacks_end() const { return bytes_.find(end, segment("\xda")) == bytes_.npos; }
 
-  /// Whether one scan has all there is: where no end follows it, the decoder notices whether its
-  /// data are complete. Of several scans (a progressive JPEG) the last ones may be missing.
-  bool has_one_scan() const {
-    const size_t frame = segment("\xc0\xc1\xda"), scan = segment("\xda");
-    if (frame == bytes_.npos || scan == bytes_.npos || frame == scan) return false;
-    return byte(frame + 9) == byte(scan + 4);  // how many components they have
+  /// Whether no scan is missing: of every component all coefficients are there to the last bit,
+  /// which those of a progressive JPEG get scan by scan. Whether the data of a scan are complete
+  /// the decoder notices, where no end follows it.
+  bool has_all_scans() const {
+    std::map<unsigned, std::bitset<coefficients>> sent;
+    bool is_progressive = false;
+    for (size_t at = 2; at < bytes_.size();) {
+      const unsigned kind = byte(at) == 0xff ? byte(at + 1) : 0;
+      if (!has_length(kind)) {  // data of a scan
+        ++at;
+        continue;
+      }
+      if (kind >= 0xc0 && kind <= 0xc2) {
+        is_progressive = kind == 0xc2;
+        for (unsigned i = 0; i < byte(at + 9); ++i) sent[byte(at + 10 + 3 * i)];
+      }
+      if (kind == 0xda) note_scan(at, is_progressive, sent);
+      at += 2 + 256 * byte(at + 2) + byte(at + 3);
+    }
+    const auto is_whole = [](const auto& component) { return component.second.all(); };
+    return !sent.empty() && std::all_of(sent.begin(), sent.end(), is_whole);
   }
 
   std::string with_end() const { return std::string(bytes_) + end; }
 
  private:
   static constexpr char end[] = "\xff\xd9";
+  static constexpr size_t coefficients = 64;
+
+  /// Whether a marker begins a segment; 0, 1, 0xff and those of restarts, start and end do not.
+  static bool has_length(unsigned kind) {
+    return kind > 1 && kind < 0xff && !(kind >= 0xd0 && kind <= 0xd9);
+  }
+
+  /// Notes what the scan at `at` has to the last bit.
+  void note_scan(size_t at, bool is_progressive,
+                 std::map<unsigned, std::bitset<coefficients>>& sent) const {
+    const unsigned count = byte(at + 4);
+    const size_t spectrum = at + 5 + 2 * size_t{count};
+    const unsigned first = is_progressive ? byte(spectrum) : 0,
+                   last = is_progressive ? byte(spectrum + 1) : coefficients - 1,
+                   bits_left = is_progressive ? byte(spectrum + 2) & 15 : 0;
+    if (bits_left > 0) return;
+    for (unsigned i = 0; i < count; ++i)
+      for (unsigned k = first; k <= last && k < coefficients; ++k)
+        sent[byte(at + 5 + 2 * i)].set(k);
+  }
 
   unsigned byte(size_t i) const { return i < bytes_.size() ? static_cast<uint8_t>(bytes_[i]) : 0; }
 
@@ -163,7 +200,7 @@ class Jpeg {
 /// the data.
 std::string damage_of(OIIO::ImageInput& input, const Jpeg& jpeg, bool head_was_told) {
   const std::string told = input.has_error() ? input.geterror() : "";
-  const bool is_whole = told.empty() && !head_was_told && jpeg.has_one_scan();
+  const bool is_whole = told.empty() && !head_was_told && jpeg.has_all_scans();
   if (jpeg.lacks_end() && !is_whole)
     return "is cut off, the end of the JPEG is not there: copy or save it again";
   for (const char* const harmless : {"Adobe color transform", "SOS parameters"})
