@@ -8,6 +8,7 @@
 #include "mapped.h"
 #include "program.h"
 #include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/vertex_data.h"
 
 /// --data of all that take it, and what lies beside surfaces.
@@ -242,6 +243,122 @@ TEST_CASE("data: the other hemisphere's is told in a line") {
   std::filesystem::copy_file(brain.white, brain.mapped.folder / "x.white");
   REQUIRE(sphparam_program({"repair", brain.mapped.folder / "x.white", "-o", nobodys}).code == 0);
   CHECK_THAT(told(nobodys, other), !Contains("is of Cortex"));
+}
+
+TEST_CASE("data: a sphere of a mended mesh is told, and what writes that mesh") {
+  const Folder folder;
+  const std::string mesh = folder / "a.obj", sphere = folder / "lh.sphere",
+                    mended = folder / "m.obj";
+  TriangleMesh open = icosphere(1);
+  open.triangles.conservativeResize(79, 3);
+  write_bytes(mesh, obj_text(open));
+  const Ended map = sphparam_program({"map", mesh, "--repair=holes", "--write-sphere", sphere});
+  REQUIRE(map.code == 0);
+  const std::string command = "sphparam repair " + mesh + " --repair=holes -o MENDED";
+  CHECK_THAT(map.err, Contains("lh.sphere: is of the mended mesh, which no file holds: `" +
+                               command + "` writes it"));
+  const Ended other = sphparam_program({"verify", mesh, sphere});
+  CHECK(other.code == 3);
+  CHECK_THAT(other.err, Contains("`sphparam repair` with the same options writes"));
+  REQUIRE(sphparam_program({"repair", mesh, "--repair=holes", "-o", mended}).code == 0);
+  CHECK(sphparam_program({"verify", mended, sphere}).code == 0);
+  CHECK_THAT(sphparam_program({"map", mesh, "--repair=holes", "--write-sphere", sphere, "-o",
+                               folder / "a.sph.ply"})
+                 .err,
+             !Contains("no file holds"));
+}
+
+TEST_CASE("data: a sphere off the origin is told wherever one is taken") {
+  const Brain brain;
+  MeshFile moved = read_mesh(brain.sphere);
+  moved.mesh.positions.col(0).array() += 25;
+  const std::string off = brain.mapped.folder / "off.lh.sphere",
+                    out = brain.mapped.folder / "o.ply";
+  write_mesh(off, moved, {.is_sphere = true});
+  const std::string told = "off.lh.sphere: these points are not on a sphere about the origin";
+  CHECK_THAT(
+      sphparam_program({"remesh", brain.white, "--sphere", off, "--grid", "ico:1", "-o", out}).err,
+      Contains("warning: " + told));
+  CHECK_THAT(sphparam_program({"match", brain.white, brain.white, "--sphere", brain.sphere,
+                               "--sphere-b", off, "-o", out})
+                 .err,
+             Contains("warning: " + told));
+  const Ended like = sphparam_program(
+      {"remesh", brain.white, "--sphere", brain.sphere, "--grid", "like:" + off, "-o", out});
+  CHECK_THAT(like.err, Contains("warning: " + told));
+  CHECK_THAT(sphparam_program({"remesh", brain.white, "--sphere", brain.sphere, "--grid",
+                               "like:" + brain.sphere, "-o", out})
+                 .err,
+             !Contains("about the origin"));
+}
+
+TEST_CASE("data: a report names the files of data that were written") {
+  const Brain brain;
+  const std::string out = brain.mapped.folder / "o.surf.gii",
+                    metric = brain.mapped.folder / "m.shape.gii";
+  const auto data_of = [&](std::vector<std::string> more) {
+    std::vector<std::string> words{"remesh", brain.white, "--sphere", brain.sphere,
+                                   "--grid", "ico:1",     "--json",   "-"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Ended ended = sphparam_program(words);
+    INFO(ended.err);
+    REQUIRE(ended.code == 0);
+    return nlohmann::json::parse(ended.out)["outputs"]["data"];
+  };
+  using Names = std::vector<std::string>;
+  CHECK(data_of({"--data", brain.thickness + "," + brain.parcels, "-o", out}) ==
+        Names{brain.mapped.folder / "o.thickness.shape.gii",
+              brain.mapped.folder / "o.parcels.label.gii"});
+  CHECK(data_of({"--data", brain.thickness, "--write-data", metric}) == Names{metric});
+  CHECK(data_of({"--data", brain.thickness, "-o", brain.mapped.folder / "o.ply"}).empty());
+}
+
+TEST_CASE("data: a measure and a time series of one name lie beside a FreeSurfer surface apart") {
+  const Brain brain;
+  VertexData series = read_vertex_data(brain.thickness);
+  series.kind = DataKind::TimeSeries;
+  const std::string func = brain.mapped.folder / "lh.thickness.func.gii",
+                    folder = brain.mapped.folder / "out";
+  write_vertex_data(func, series);
+  std::filesystem::create_directories(folder);
+  const Ended ended =
+      sphparam_program({"remesh", brain.white, "--sphere", brain.sphere, "--grid", "ico:1",
+                        "--data", brain.thickness + "," + func, "-o", folder + "/lh.white"});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  CHECK(read_vertex_data(folder + "/lh.thickness").columns[0].values ==
+        read_vertex_data(folder + "/lh.thickness_2").columns[0].values);
+}
+
+TEST_CASE("data: areas of a sphere are told where those of surfaces are meant") {
+  const Brain brain;
+  const std::string told = "warning: the areas of --sample adap-bary-area are those of lh.sphere";
+  const auto said = [&](const std::string& mesh, std::vector<std::string> more) {
+    std::vector<std::string> words{"remesh",       mesh,
+                                   "--sphere",     brain.sphere,
+                                   "--grid",       "like:" + brain.sphere,
+                                   "--sample",     "adap-bary-area",
+                                   "--data",       brain.thickness,
+                                   "--write-data", brain.mapped.folder / "m.shape.gii"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Ended ended = sphparam_program(words);
+    INFO(ended.err);
+    REQUIRE(ended.code == 0);
+    return ended.err;
+  };
+  CHECK_THAT(said(brain.sphere, {}), Contains(told));
+  CHECK_THAT(said(brain.white, {}), !Contains("which is a sphere"));
+  CHECK_THAT(said(brain.sphere, {"--areas", brain.white + "," + brain.white}),
+             !Contains("which is a sphere"));
+}
+
+TEST_CASE("data: values that B lacks are told by its mesh, not its sphere") {
+  const Brain brain;
+  CHECK_THAT(sphparam_program({"match", brain.white, brain.white, "--sphere", brain.sphere,
+                               "--sphere-b", brain.sphere, "-o", brain.mapped.folder / "m.ply",
+                               "--write-values", brain.mapped.folder / "v.ply"})
+                 .err,
+             Contains("--write-values: no vertex of lh.white carries"));
 }
 
 TEST_CASE("data: what makes no sense is refused before any work") {

@@ -4,6 +4,7 @@
 #include "io/formats/gifti/gifti_writer.h"
 #include "reading.h"
 #include "sphparam/errors.h"
+#include "sphparam/io/losses.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/io/sphere_file.h"
 #include "sphparam/sphere/certificate.h"
@@ -39,6 +40,19 @@ TEST_CASE("gifti_writer: coordinates that no float holds are rounded to the near
   const MeshFile again = read(serialise_gifti(file));
   CHECK(again.position_type == ScalarType::Float32);
   CHECK(again.mesh.positions == file.mesh.positions.cast<float>().cast<double>());
+}
+
+TEST_CASE("gifti_writer: triangles that rounding leaves without area are counted") {
+  MeshFile file;
+  file.mesh = icosphere(1);
+  const Triangles& triangles = file.mesh.triangles;
+  file.mesh.positions.row(triangles(0, 1)) = file.mesh.positions.row(triangles(0, 0));
+  file.mesh.positions.row(triangles(0, 1)) *= 1 + 1e-9;  // both of its edge
+  const auto losses = losses_of_writing(file, read(serialise_gifti(file)));
+  REQUIRE(losses.size() == 2);
+  CHECK(contains(losses[0], "not carried: the last digits of "));
+  CHECK(losses[1] ==
+        "not carried: the area of 2 of 80 triangles: with coordinates of 32 bits they have none");
 }
 
 TEST_CASE("gifti_writer: coordinates beyond floats are refused, and a mesh too small for them") {

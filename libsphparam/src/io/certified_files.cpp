@@ -76,25 +76,29 @@ void require_free(const std::string& beside, const std::string& mesh, const Vert
                                "holds data itself");
 }
 
-/// A measure and a time series of one name lie in one file of FreeSurfer's: the second is renamed.
-std::string path_of_its_own(const std::string& mesh, VertexData& data,
-                            std::set<std::string>& taken) {
-  const std::string name = data.name;
-  std::string beside = data_path(mesh, data);
-  for (int number = 2; !taken.insert(beside).second; ++number) {
-    data.name = name + "_" + std::to_string(number);
-    beside = data_path(mesh, data);
+/// The data of a mesh and its file; a measure and a time series of one name would lie in one file
+/// of FreeSurfer's, so the second is renamed.
+using DataBeside = std::pair<std::string, VertexData>;
+std::vector<DataBeside> data_beside(const std::string& mesh, const MeshFile& file) {
+  std::vector<DataBeside> all;
+  std::set<std::string> taken;
+  for (VertexData& data : attached_data(file)) {
+    const std::string name = data.name;
+    std::string path = data_path(mesh, data);
+    for (int number = 2; !taken.insert(path).second; ++number) {
+      data.name = name + "_" + std::to_string(number);
+      path = data_path(mesh, data);
+    }
+    all.emplace_back(std::move(path), std::move(data));
   }
-  return beside;
+  return all;
 }
 
 /// The mesh, without the data that lies beside it where its format has it so; `told` says where.
 MeshFile with_data_beside(PendingFiles& files, const std::string& path, MeshFile file,
                           std::vector<std::string>& told) {
   if (!has_data_beside(path)) return file;
-  std::set<std::string> taken;
-  for (VertexData& data : attached_data(file)) {
-    const std::string beside = path_of_its_own(path, data, taken);
+  for (auto& [beside, data] : data_beside(path, file)) {
     data.triangles = file.mesh.face_count();
     require_free(beside, path, data, file.mesh.positions);
     told.push_back(data.name + " beside it: " + output_name(beside));
@@ -126,6 +130,13 @@ std::vector<std::string> add_surface(PendingFiles& files, const std::string& pat
 }
 
 }  // namespace
+
+std::vector<std::string> paths_beside(const std::string& path, const MeshFile& file) {
+  std::vector<std::string> paths;
+  if (!has_data_beside(path)) return paths;
+  for (DataBeside& one : data_beside(path, file)) paths.push_back(std::move(one.first));
+  return paths;
+}
 
 void require_numbers(const MeshFile& file, const std::string& path) {
   const Eigen::Index all = file.mesh.vertex_count();

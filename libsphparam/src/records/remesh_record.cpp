@@ -171,7 +171,8 @@ Json outputs_json(const RemeshOutputs& outputs) {
           {"geometry_image", outputs.geometry_image},
           {"normals", outputs.normals},
           {"attribute_images", outputs.attribute_images},
-          {"csv", outputs.csv}};
+          {"csv", outputs.csv},
+          {"data", outputs.data}};
 }
 
 Json head_json(const RemeshRecord& record) {

@@ -20,6 +20,9 @@ class MappedMesh;
 // return says where, too. Nobody gave these names: a file that is there already is left as it is,
 // and WriteError tells of it, unless it has the same bytes.
 
+/// Those files, of a mesh that is written as `path`; none where its format holds data itself.
+std::vector<std::string> paths_beside(const std::string& path, const MeshFile& file);
+
 /// Throws UnmeasurableMesh where a mesh that was made here, to be written as `path`, has positions
 /// or values that are no finite numbers.
 void require_numbers(const MeshFile& file, const std::string& path);
@@ -35,9 +38,9 @@ void add_certified(PendingFiles& files, const std::string& path, std::string byt
 
 /// Adds a mesh that carries a map, proved like this, in the format that the name asks for (see
 /// `serialise_mesh`); where that has no place for a map, the mesh alone. `faces`: the polygons that
-/// its triangles are cut of, as `adopt_triangulation` does. GIFTI gets coordinates of 32 bits,
-/// which the tools about it ask for. Returns what the format had no place for (losses.h), not the
-/// map. Throws: UnmeasurableMesh as `require_numbers`; WriteError for a name of no format.
+/// its triangles are cut of, as `adopt_triangulation` does. Returns what the format had no place
+/// for (losses.h), not the map. Throws: UnmeasurableMesh as `require_numbers`; WriteError for a
+/// name of no format.
 std::vector<std::string> add_mapped(PendingFiles& files, const std::string& path, MeshFile file,
                                     const Polygons& faces, const Topology& topology, int threads,
                                     WriteOptions options = {});

@@ -12,11 +12,12 @@ namespace sphparam {
 // .midthickness, .graymid, .reg, .surf). ".gz" after it asks for gzip. A name without an extension,
 // and "-", standard output, ask for PLY.
 //
-// All are lossless in what they carry, and reading gives it back. PLY: everything. OBJ: positions,
-// colours, texture coordinates, normals, materials, comments. OFF: what vertices have of these, and
-// colours of faces. VTK, VTP: all but what corners have. GIFTI: positions, comments as metadata.
-// MZ3: positions as float32, colours as bytes, properties of vertices without their names.
-// FreeSurfer: positions as float32, comments of its own. `losses_of_writing` tells.
+// All are lossless in what they carry, but for float32, and reading gives it back. PLY: everything.
+// OBJ: positions, colours, texture coordinates, normals, materials, comments. OFF: what vertices
+// have of these, and colours of faces. VTK, VTP: all but what corners have. GIFTI: positions as
+// float32, comments as metadata. MZ3: positions as float32, colours as bytes, properties of
+// vertices without their names. FreeSurfer: positions as float32, comments of its own.
+// `losses_of_writing` tells.
 
 struct WriteOptions {
   /// The polygons that the triangles are cut of, in their order; the formats that have polygons,
@@ -24,9 +25,6 @@ struct WriteOptions {
   const Polygons* faces = nullptr;
   /// The positions are points of a sphere, in no space but its own. GIFTI says so.
   bool is_sphere = false;
-  /// Coordinates of GIFTI are rounded to 32 bits, as the tools about it ask; else they are written
-  /// with 64 where that is what they have.
-  bool float32 = false;
   /// The file that the mesh is made of. GIFTI says by its name which hemisphere it is, and which
   /// surface, where neither comments nor the new name do (brain_names.h).
   std::string origin = {};
@@ -52,8 +50,8 @@ bool keeps_map(const std::string& path);
 /// The bytes of a mesh file. Where the format has no place for a map, what the comments say of it
 /// goes too, but on a sphere, which is the map. Requires: finite numbers; names of properties
 /// without blanks. Throws: WriteError for a name of no format that is written; for GIFTI, where
-/// libgiftiio fails; for FreeSurfer and MZ3, of coordinates beyond float32. Cost: near a copy of
-/// the bytes for PLY, 0.2 µs a number of text.
+/// libgiftiio fails; for GIFTI, FreeSurfer and MZ3, of coordinates beyond float32. Cost: near a
+/// copy of the bytes for PLY, 0.2 µs a number of text.
 std::string serialise_mesh(const std::string& path, const MeshFile& file,
                            const WriteOptions& options = {});
 

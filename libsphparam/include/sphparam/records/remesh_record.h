@@ -16,6 +16,7 @@ struct RemeshOutputs {
   std::string mesh = {}, limit_mesh = {}, displacement = {}, rebuilt = {};
   std::string geometry_image = {}, normals = {}, csv = {};
   std::vector<std::string> attribute_images = {};  // NAME=FILE
+  std::vector<std::string> data = {};              // of --data, beside meshes or as they were named
   std::vector<std::string> levels = {};  // the file of each; needed where there are several levels
 };
 
