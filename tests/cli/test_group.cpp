@@ -290,6 +290,60 @@ TEST_CASE("group: shapes of one name are told apart by their files") {
   CHECK(cells_of(rows[2]).back() == second);
 }
 
+TEST_CASE("group: the distance that is told is that of the table, by root mean square") {
+  const Eggs eggs;
+  const Ended ended = eggs.group({"--hold", "--size", "0"});
+  REQUIRE(ended.code == 0);
+  double squares = 0;
+  const auto rows = lines_of(bytes_of(eggs.in_out("shapes.tsv")));
+  for (size_t i = 1; i <= 3; ++i) squares += std::pow(std::stod(cells_of(rows[i])[4]), 2) / 3;
+  const std::string told = "RMS distance from the mean ";
+  const std::size_t at = ended.err.find(told);
+  REQUIRE(at != std::string::npos);
+  CHECK(std::stod(ended.err.substr(at + told.size())) == Approx(std::sqrt(squares)).epsilon(5e-3));
+}
+
+TEST_CASE("group: subjects of FreeSurfer give shapes their names, and two hemispheres are told") {
+  const Eggs eggs;
+  std::vector<std::string> words{"group"};
+  for (const char* name : {"s1/surf/lh.white", "s2/surf/rh.white"}) {
+    fs::create_directories(fs::path(eggs.folder / name).parent_path());
+    words.push_back(eggs.folder / name);
+    REQUIRE(sphparam_program({"repair", eggs.paths[words.size() - 2], "-o", words.back()}).code ==
+            0);
+  }
+  for (const char* word : {"--hold", "--grid", "ico:2", "--size", "0", "-o"}) words.push_back(word);
+  words.push_back(eggs.out);
+  const Ended ended = sphparam_program(words);
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  const auto rows = lines_of(bytes_of(eggs.in_out("shapes.tsv")));
+  CHECK(cells_of(rows[1])[0] == "s1_lh_white");
+  CHECK(cells_of(rows[2])[0] == "s2_rh_white");
+  CHECK(fs::exists(eggs.in_out("map_s2_rh_white.sph.ply")));
+  CHECK_THAT(ended.err, Contains("warning: 1 surface of CortexLeft (" + words[1] +
+                                 ") and 1 of CortexRight (" + words[2] + ") in one group"));
+}
+
+TEST_CASE("group: maps that lie as they are want a map of every shape") {
+  const Eggs eggs;
+  const std::string mapped = eggs.folder / "egg0.sph.ply";
+  REQUIRE(sphparam_program({"map", eggs.paths[0], "-o", mapped}).code == 0);
+  const auto group = [&](const std::vector<std::string>& shapes) {
+    std::vector<std::string> words{"group"};
+    words.insert(words.end(), shapes.begin(), shapes.end());
+    words.insert(words.end(),
+                 {"--start", "maps", "--hold", "--grid", "ico:2", "--size", "0", "-o", eggs.out});
+    return sphparam_program(words);
+  };
+  const Ended refused = group({mapped, eggs.paths[1]});
+  CHECK(refused.code == 2);
+  CHECK_THAT(refused.err, Contains("--start maps: egg1.obj has no map") &&
+                              Contains("`sphparam remesh " + eggs.paths[1] + " --sphere"));
+  CHECK(group({mapped}).code == 0);
+  CHECK(group({eggs.paths[1]}).code == 0);  // alone, it lies as it lies
+}
+
 TEST_CASE("group: the record says which shapes had no map, also where maps are moved") {
   const Eggs eggs;
   const std::string mapped = eggs.folder / "mapped.sph.ply";

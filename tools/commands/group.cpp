@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <set>
 
 #include "commands/command.h"
@@ -11,9 +12,12 @@
 #include "console/console.h"
 #include "console/new_folder.h"
 #include "console/places.h"
+#include "io/shell_word.h"
 #include "number_text.h"
 #include "sphparam/group/template_landmarks.h"
 #include "sphparam/io/paths.h"
+#include "sphparam/io/sphere_file.h"
+#include "sphparam/io/vertex_data.h"
 #include "sphparam/records/group_files.h"
 
 namespace sphparam::cli {
@@ -93,11 +97,26 @@ struct ReadShape {
   MendedShape mended;
 };
 
+/// Where maps stay as they lie, one that is made now lies anyhow: what is at one place of it and of
+/// another has nothing to do with each other.
+void require_map(const MeshSource& source, const GroupArguments& arguments) {
+  const bool is_alone = arguments.inputs.size() == 1 && arguments.reference.empty();
+  if (arguments.options.start != GroupStart::Maps || is_alone || read_sphere(source.file)) return;
+  const std::string mesh = shell_file(source.path);
+  throw UsageMistake("--start maps: " + display_name(source.path) +
+                     " has no map, and one that is made now lies in no correspondence: `sphparam "
+                     "remesh " +
+                     mesh +
+                     " --sphere REGISTERED --grid like:REGISTERED -o NAME.sph.ply` gives it that "
+                     "of a registered sphere, --start ends or rotation find a way");
+}
+
 /// Which file a refusal is about, which tells what is wrong with a mesh.
 ReadShape read_shape(const std::string& path, const GroupArguments& arguments,
                      Session& session) try {
   session.hold_signals();
   MeshSource source = read_mended(path, arguments.repair, session);
+  require_map(source, arguments);
   MendedShape mended = what_was_mended(source);
   return {map_source(std::move(source), "", session, arguments.repair), std::move(mended)};
 } catch (const MeshRefusal&) {
@@ -123,6 +142,23 @@ std::vector<ReadShape> read_shapes(const GroupArguments& arguments, const ReadSh
                          ? reference
                          : read_shape(path, arguments, session));
   return shapes;
+}
+
+/// A left and a right hemisphere are mirror images of each other, which no map is brought to.
+void tell_hemispheres(const GroupArguments& arguments, const MappedMesh& reference,
+                      const std::vector<MappedMesh>& shapes, Session& session) {
+  std::map<std::string, std::set<std::string>> sides;
+  const auto add = [&](const std::string& path, const MappedMesh& mapped) {
+    sides[structure_of(mapped.file(), path)].insert(path);
+  };
+  add(reference_of(arguments), reference);
+  for (std::size_t i = 0; i < shapes.size(); ++i) add(arguments.inputs[i], shapes[i]);
+  const auto &left = sides["CortexLeft"], &right = sides["CortexRight"];
+  if (left.empty() || right.empty()) return;
+  session.warn({counted(std::ssize(left), "surface") + " of CortexLeft (" + *left.begin() +
+                (left.size() > 1 ? ", …" : "") + ") and " + std::to_string(right.size()) +
+                " of CortexRight (" + *right.begin() + (right.size() > 1 ? ", …" : "") +
+                ") in one group: they are mirror images, which it takes for shapes that differ"});
 }
 
 std::vector<bool> mapped_now(const std::vector<MappedMesh>& shapes) {
@@ -184,6 +220,7 @@ int run_group(GroupArguments& arguments) {
     shapes.push_back(std::move(shape.mapped));
     mended.push_back(std::move(shape.mended));
   }
+  tell_hemispheres(arguments, reference.mapped, shapes, session);
   GroupOptions options = arguments.options;
   options.threads = session.threads();
   options.progress = session.progress();

@@ -11,6 +11,7 @@
 #include "records/nearest_vertex.h"
 #include "sphparam/correspondence/surface_map.h"
 #include "sphparam/group/surface_size.h"
+#include "sphparam/io/brain_names.h"
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/repair_advice.h"
@@ -108,6 +109,16 @@ Json modes_json(const ShapeModes& modes) {
   return all;
 }
 
+/// Subjects of FreeSurfer have one name for the same surface of each: "sub01_lh_white" of
+/// "sub01/surf/lh.white", as in a batch.
+std::string name_of_shape(const std::string& file) {
+  const std::string stem = stem_of(file), side = stem.substr(0, 2);
+  const BrainName brain = parse_brain_name(file);
+  const bool is_of_subject =
+      (side == "lh" || side == "rh") && brain.hemisphere != 0 && !brain.subject.empty();
+  return is_of_subject ? brain.subject + "_" + side + "_" + brain.what : stem;
+}
+
 /// Shapes whose energy is far above the others', of so many that this says something.
 std::vector<size_t> outliers(const Group& group) {
   std::vector<double> energies;
@@ -133,7 +144,7 @@ std::vector<std::string> names_of_shapes(const std::vector<std::string>& files) 
   std::set<std::string> taken;
   std::vector<std::string> names;
   for (const std::string& file : files) {
-    const std::string stem = is_stream(file) ? "stdin" : stem_of(file);
+    const std::string stem = is_stream(file) ? "stdin" : name_of_shape(file);
     std::string name = stem;
     for (int k = 2; !taken.insert(name).second; ++k) name = stem + "_" + std::to_string(k);
     names.push_back(name);
@@ -147,6 +158,15 @@ std::string grid_name(const GroupOptions& options) {
 
 double distance_from_mean(const Group& group, size_t member) {
   return rms(group.members[member].aligned - group.mean.mesh().positions, group.weights);
+}
+
+double rms_distance_from_mean(const Group& group) {
+  double squares = 0;
+  for (size_t i = 0; i < group.members.size(); ++i) {
+    const double distance = distance_from_mean(group, i);
+    squares += distance * distance;
+  }
+  return std::sqrt(squares / static_cast<double>(group.members.size()));
 }
 
 double mean_size(const Group& group) {
@@ -266,14 +286,13 @@ std::string landmarks_table(const GroupRecord& record) {
 
 std::string to_text(const GroupRecord& record) {
   const Group& group = record.group;
-  const double size = size_of_mean(group);
+  const double size = size_of_mean(group), distance = rms_distance_from_mean(group);
   const std::string grid =
       record.options.grid ? grid_name(record.options) : "the template's triangles";
   return counted(static_cast<long>(record.names.size()), "shape") + " on " + grid +
-         ", all maps certified; RMS distance from the mean " +
-         short_number(std::sqrt(group.modes.variance)) + " (" +
-         percent(size > 0 ? std::sqrt(group.modes.variance) / size : 0) + " of its size " +
-         short_number(size) + "), " + short_number(record.seconds) + " s";
+         ", all maps certified; RMS distance from the mean " + short_number(distance) + " (" +
+         percent(size > 0 ? distance / size : 0) + " of its size " + short_number(size) + "), " +
+         short_number(record.seconds) + " s";
 }
 
 std::vector<std::string> mode_lines(const GroupRecord& record) {

@@ -103,7 +103,7 @@ class GroupPage {
         {{"shapes", std::to_string(record_.names.size())},
          {"vertices in correspondence", std::to_string(group_.mean.mesh().vertex_count())},
          {"of the mean's size, RMS distance from it",
-          percent(size > 0 ? std::sqrt(group_.modes.variance) / size : 0)}});
+          percent(size > 0 ? rms_distance_from_mean(group_) / size : 0)}});
     if (!warnings.empty()) {
       page_.paragraph("To be looked at:");
       page_.list(warnings);

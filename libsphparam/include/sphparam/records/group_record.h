@@ -36,8 +36,8 @@ struct GroupRecord {
   double seconds = 0;
 };
 
-/// What shapes are called: their files' names without folders and endings; where several have one
-/// name, "name_2" and so on.
+/// What shapes are called: their files' names without folders and endings, "SUBJECT_lh_white" of
+/// SUBJECT/surf/lh.white; where several have one name, "name_2" and so on.
 std::vector<std::string> names_of_shapes(const std::vector<std::string>& files);
 
 /// As `sphparam group` writes it to group.json.
@@ -64,6 +64,8 @@ std::string grid_name(const GroupOptions& options);
 
 /// RMS distance of a member's aligned shape from the mean, weighted; the mesh's unit.
 double distance_from_mean(const Group& group, size_t member);
+/// That of all members together: the root of the mean of the squares of the distances.
+double rms_distance_from_mean(const Group& group);
 /// Of the shapes' sizes, to which `GroupOptions::scale` brings them.
 double mean_size(const Group& group);
 /// `surface_size` of the mean, which is less where shapes differ: what distances are held against.
