@@ -10,6 +10,7 @@
 #include "sphparam/io/map_files.h"
 #include "sphparam/report/match_page.h"
 #include "sphparam/version.h"
+#include "sphparam/io/paths.h"
 
 namespace sphparam::cli {
 namespace {
@@ -97,7 +98,7 @@ void tell_absent_values(const MatchArguments& arguments, const MappedMesh& secon
                         Session& session) {
   if (arguments.values.empty() || !names_of_values(second.file()).empty()) return;
   session.warn(
-      {"--write-values: no vertex of " + second.name() +
+      {"--write-values: no vertex of " + display_name(arguments.second) +
        " carries a value or a colour, so nothing is carried over; a texture: sphparam bake " +
        arguments.second + " --texture, then sphparam export " + arguments.output +
        " --image with what it made"});
