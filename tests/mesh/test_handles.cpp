@@ -223,6 +223,18 @@ TEST_CASE("handles: surfaces of noisy volumes, bumped tori and grids of tubes en
   CHECK(handles > 200);
 }
 
+TEST_CASE("handles: of loops that only together separate the surface one stays whole") {
+  // Two tubes and n from one to the other: loops about all of these n would leave two pieces.
+  for (const int n : {3, 4, 5}) {
+    INFO(n << " tubes");
+    const TriangleMesh mesh = tube_grid(2, n, 6, 0.25);
+    const RepairedMesh cut = repair_mesh(mesh, only_handles());
+    check_cut(mesh, cut);
+    CHECK(std::ssize(cut.handles) == n - 1);
+    CHECK(cut.inspection.is_sphere());
+  }
+}
+
 TEST_CASE("handles: all in one place, whatever is done, they go") {
   for (TriangleMesh mesh : {bumped_torus(7, 9, 0.3, 0, 1), noisy_ball(12, 0.25, 5)}) {
     mesh.positions.setZero();
