@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -365,6 +366,27 @@ TEST_CASE("mesh_repair: a vertex of valence two keeps its place, the other diago
   CHECK(count(repaired, RepairKind::DiagonalTurned) == 1);
   CHECK(repaired.mesh.vertex_count() == 43);
   CHECK(repaired.mesh.face_count() == 82);
+}
+
+TEST_CASE(
+    "mesh_repair: of two diagonals that would mend a flap a short one that folds is not taken") {
+  // Faces 0 1 2 and 1 0 3 in a plane over a cone, between them the flap to vertex 5.
+  TriangleMesh mesh{Points(6, 3), Triangles(8, 3)};
+  mesh.triangles << 0, 1, 2, 1, 0, 3, 2, 1, 4, 0, 2, 4, 3, 0, 4, 1, 3, 4, 1, 0, 5, 0, 1, 5;
+  RepairOptions options = RepairOptions::none();
+  options.non_manifold = true;
+  const auto ends_of_new_edge = [&] {
+    const RepairedMesh repaired = repair_mesh(mesh, options);
+    check_is_sphere(repaired);
+    CHECK(count(repaired, RepairKind::DiagonalTurned) == 1);
+    const Topology topology(repaired.mesh);
+    return std::array{topology.find_halfedge(2, 5) >= 0, topology.find_halfedge(3, 5) >= 0};
+  };
+  mesh.positions << -1, 0, 0, 1, 0, 0, 0, 2, 0, 1.6, -0.5, 0, 0, 40, -10, 0.6, -0.4, 0;
+  CHECK(ends_of_new_edge() == std::array{true, false});
+  // One that makes a face without area folds nothing.
+  mesh.positions << -1, 0, 0, 1, 0, 0, 0, 2, 0, -6, -9, 0, 0, 7, -4, -1.25, -0.5, 0;
+  CHECK(ends_of_new_edge() == std::array{true, false});
 }
 
 TEST_CASE("mesh_repair: the component that is asked for is kept") {
