@@ -5,23 +5,22 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <bitset>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <limits>
-#include <map>
 #include <memory>
 #include <new>
 #include <optional>
 #include <random>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
+#include "image/oiio/callers_file.h"
 #include "image/oiio/colour_profile.h"
+#include "image/oiio/jpeg.h"
 #include "image/oiio/png_texts.h"
 #include "image/oiio/webp_codec.h"
 
@@ -123,82 +122,10 @@ void tell_texts(const OIIO::ImageSpec& spec, SphparamTextSink text, void* contex
   }
 }
 
-/// The JPEG that bytes hold.
-class Jpeg {
- public:
-  explicit Jpeg(std::string_view bytes) : bytes_(bytes) {}
-
-  /// Whether no end follows the first scan. (In a scan, 0xff is never before 0xd9; what is behind
-  /// the end, as films of telephones are, does not matter.)
-  bool lacks_end() const { return bytes_.find(end, segment("\xda")) == bytes_.npos; }
-
-  /// Whether no scan is missing: of every component all coefficients are there to the last bit,
-  /// which those of a progressive JPEG get scan by scan. Whether the data of a scan are complete
-  /// the decoder notices, where no end follows it.
-  bool has_all_scans() const {
-    std::map<unsigned, std::bitset<coefficients>> sent;
-    bool is_progressive = false;
-    for (size_t at = 2; at < bytes_.size();) {
-      const unsigned kind = byte(at) == 0xff ? byte(at + 1) : 0;
-      if (!has_length(kind)) {  // data of a scan
-        ++at;
-        continue;
-      }
-      if (kind >= 0xc0 && kind <= 0xc2) {
-        is_progressive = kind == 0xc2;
-        for (unsigned i = 0; i < byte(at + 9); ++i) sent[byte(at + 10 + 3 * i)];
-      }
-      if (kind == 0xda) note_scan(at, is_progressive, sent);
-      at += 2 + 256 * byte(at + 2) + byte(at + 3);
-    }
-    const auto is_whole = [](const auto& component) { return component.second.all(); };
-    return !sent.empty() && std::all_of(sent.begin(), sent.end(), is_whole);
-  }
-
-  std::string with_end() const { return std::string(bytes_) + end; }
-
- private:
-  static constexpr char end[] = "\xff\xd9";
-  static constexpr size_t coefficients = 64;
-
-  /// Whether a marker begins a segment; 0, 1, 0xff and those of restarts, start and end do not.
-  static bool has_length(unsigned kind) {
-    return kind > 1 && kind < 0xff && !(kind >= 0xd0 && kind <= 0xd9);
-  }
-
-  /// Notes what the scan at `at` has to the last bit.
-  void note_scan(size_t at, bool is_progressive,
-                 std::map<unsigned, std::bitset<coefficients>>& sent) const {
-    const unsigned count = byte(at + 4);
-    const size_t spectrum = at + 5 + 2 * size_t{count};
-    const unsigned first = is_progressive ? byte(spectrum) : 0,
-                   last = is_progressive ? byte(spectrum + 1) : coefficients - 1,
-                   bits_left = is_progressive ? byte(spectrum + 2) & 15 : 0;
-    if (bits_left > 0) return;
-    for (unsigned i = 0; i < count; ++i)
-      for (unsigned k = first; k <= last && k < coefficients; ++k)
-        sent[byte(at + 5 + 2 * i)].set(k);
-  }
-
-  unsigned byte(size_t i) const { return i < bytes_.size() ? static_cast<uint8_t>(bytes_[i]) : 0; }
-
-  /// Where the first segment of one of these kinds begins, of the head or behind it. (One of the
-  /// head may hold a thumbnail, with scan and end.)
-  size_t segment(std::string_view kinds) const {
-    size_t at = 2;
-    while ((at = bytes_.find('\xff', at)) != bytes_.npos &&
-           kinds.find(static_cast<char>(byte(at + 1))) == kinds.npos)
-      at += byte(at + 1) == 0xff ? 1 : 2 + 256 * byte(at + 2) + byte(at + 3);
-    return at;
-  }
-
-  std::string_view bytes_;
-};
-
 /// What libjpeg only warns of, painting grey: data of a JPEG that end early or are damaged. Empty:
 /// nothing. Of several warnings it tells the first: where that was of the head, it says nothing of
 /// the data.
-std::string damage_of(OIIO::ImageInput& input, const Jpeg& jpeg, bool head_was_told) {
+std::string damage_of(OIIO::ImageInput& input, const sphparam::Jpeg& jpeg, bool head_was_told) {
   const std::string told = input.has_error() ? input.geterror() : "";
   const bool is_whole = told.empty() && !head_was_told && jpeg.has_all_scans();
   if (jpeg.lacks_end() && !is_whole)
@@ -223,7 +150,7 @@ int decode(const char* format, const char* bytes, size_t size, int64_t max_megab
     return decode_webp(*head, bytes, size, room, room_context, error, error_context);
   }
   const bool is_jpeg = std::string_view(format) == "jpeg";
-  const Jpeg jpeg({bytes, size});
+  const sphparam::Jpeg jpeg({bytes, size});
   const std::string ended = is_jpeg && jpeg.lacks_end() ? jpeg.with_end() : "";
   const std::string_view all = ended.empty() ? std::string_view(bytes, size) : ended;
   // From memory only, whatever the decoder would like to open.
@@ -277,61 +204,9 @@ std::string reproducible_date() {
   return text;
 }
 
-/// A file of the caller's, as OpenImageIO writes it or reads it.
-class CallersFile : public OIIO::Filesystem::IOProxy {
- public:
-  CallersFile(Mode mode, SphparamBytesAt write_at, SphparamBytesFrom read_from, void* context,
-              size_t size)
-      : IOProxy("", mode),
-        write_at_(write_at),
-        read_from_(read_from),
-        context_(context),
-        size_(size) {}
-
-  const char* proxytype() const override { return "callers_file"; }
-  size_t write(const void* bytes, size_t size) override {
-    if (png_texts_.empty() || m_pos + static_cast<int64_t>(size) < sphparam::png_head_size)
-      return advanced(pwrite(bytes, size, m_pos));
-    const auto head = static_cast<size_t>(sphparam::png_head_size - m_pos);
-    const std::string texts = std::exchange(png_texts_, {});
-    const auto* const first = static_cast<const char*>(bytes);
-    const bool written =
-        write(first, head) == head && write(texts.data(), texts.size()) == texts.size();
-    return written ? head + write(first + head, size - head) : 0;
-  }
-  /// Chunks that go behind the head of a PNG, whose encoder does not know of them.
-  void add_png_texts(std::string chunks) { png_texts_ = std::move(chunks); }
-  size_t pwrite(const void* bytes, size_t size, int64_t offset) override {
-    if (write_at_(context_, offset, bytes, size) != 0) return 0;
-    size_ = std::max(size_, static_cast<size_t>(offset) + size);
-    return size;
-  }
-  size_t read(void* bytes, size_t size) override { return advanced(pread(bytes, size, m_pos)); }
-  size_t pread(void* bytes, size_t size, int64_t offset) override {
-    return read_from_(context_, offset, bytes, size);
-  }
-  bool seek(int64_t offset) override {
-    m_pos = offset;
-    return true;
-  }
-  size_t size() const override { return size_; }
-
- private:
-  size_t advanced(size_t count) {
-    m_pos += static_cast<int64_t>(count);
-    return count;
-  }
-
-  SphparamBytesAt write_at_;
-  SphparamBytesFrom read_from_;
-  void* context_;
-  size_t size_;
-  std::string png_texts_;
-};
-
 /// An image under way. The encoder goes before the file it writes to.
 struct OpenImage {
-  CallersFile file;
+  sphparam::CallersFile file;
   std::unique_ptr<OIIO::ImageOutput> output;
   OIIO::ImageSpec spec;
   OIIO::TypeDesc type;  // of the rows that come
@@ -402,8 +277,11 @@ OIIO::TypeDesc type_of_rows(const OIIO::ImageSpec& spec) {
 }
 
 void* open(const SphparamImageFile* file, SphparamBytesSink error, void* error_context) try {
-  auto image = std::make_unique<OpenImage>(OpenImage{
-      {CallersFile::Write, file->write, nullptr, file->context, 0}, nullptr, spec_of(*file), {}});
+  auto image = std::make_unique<OpenImage>(
+      OpenImage{{sphparam::CallersFile::Write, file->write, nullptr, file->context, 0},
+                nullptr,
+                spec_of(*file),
+                {}});
   image->type = type_of_rows(image->spec);
   if (std::string_view(file->format) == "png") image->file.add_png_texts(png_texts_of(*file));
   image->output = OIIO::ImageOutput::create(file->format);
@@ -484,7 +362,8 @@ std::unique_ptr<WrittenImage> written_image(const std::string& format, SphparamB
     image->file =
         std::make_unique<OIIO::Filesystem::IOMemReader>(image->bytes.data(), image->bytes.size());
   } else {
-    image->file = std::make_unique<CallersFile>(CallersFile::Read, nullptr, read, context, size);
+    image->file = std::make_unique<sphparam::CallersFile>(sphparam::CallersFile::Read, nullptr,
+                                                          read, context, size);
   }
   image->input = OIIO::ImageInput::create(format, false);
   return image;
