@@ -103,7 +103,7 @@ double Enclosure::face_by_face(std::size_t first, std::size_t last, const Vector
   double sum = 0;
   for (std::size_t i = first; i < last; ++i) {
     const auto ray = [&](int k) -> Vector3 {
-      return (mesh_.position(mesh_.triangles(faces_[i], k)) - point).stableNormalized();
+      return (mesh_.position(mesh_.triangles(faces_[i], k)) - point).normalized();
     };
     sum += solid_angle(ray(0), ray(1), ray(2));
   }
