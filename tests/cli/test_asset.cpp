@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
@@ -34,9 +35,13 @@ TEST_CASE("asset: `sphparam FILE` fills a folder beside, all files together") {
 TEST_CASE("asset: --textures webp is of the .glb, whose size is told, images beside it are PNG") {
   const Folder folder;
   const std::string out = folder / "made", json = out + "/r.json";
+  TriangleMesh cup = icosphere(3);  // its top pressed in, so that it has some occlusion
+  constexpr double rim = 0.5;
+  for (Vertex v = 0; v < cup.vertex_count(); ++v)
+    cup.positions(v, 2) = std::min(cup.positions(v, 2), 2 * rim - cup.positions(v, 2));
   const Ended ended = sphparam_program(
       {"asset", "-", "-o", out, "--size", "64", "--textures", "webp", "--json", json},
-      obj_text(icosphere(3)));
+      obj_text(cup));
   INFO(ended.err);
   REQUIRE(ended.code == 0);
   CHECK_THAT(ended.err, Contains("  mesh.glb 0.0") && Contains(" % of it images\n") &&
@@ -171,6 +176,54 @@ TEST_CASE("asset: what folds as 16-bit numbers is counted in the report as it is
   const nlohmann::json report = nlohmann::json::parse(ended.out);
   INFO(ended.err);
   CHECK(report["folds_as_stored"] == 2);
+}
+
+TEST_CASE(
+    "asset: what a missing library of materials takes, and --faces of what is no wrap, is told") {
+  const Folder folder;
+  write_bytes(folder / "a.obj", "mtllib a.mtl\nusemtl p\n" + obj_text(icosphere(2)));
+  const Ended ended = sphparam_program({"asset", folder / "a.obj", "-o", folder / "made", "--size",
+                                        "64", "--no-page", "--faces", "100", "-q", "--json", "-"});
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.err, Contains("warning: the asset comes out bare: without the colours and "
+                                 "textures of 1 material in 'a.mtl' (No such file or directory)"));
+  CHECK_THAT(ended.err, Contains("warning: --faces is of wraps only, and this is none: it has all "
+                                 "its 320 triangles; `sphparam remesh " +
+                                 folder / "made/a.sph.ply --grid ico:5 -o light.sph.ply`"));
+}
+
+TEST_CASE("asset: of parts that lie far apart the share of what joins them is told") {
+  const Folder folder;
+  write_bytes(folder / "two.obj", obj_text(joined(icosphere(2), icosphere(2), {6, 0, 0})));
+  const Ended ended =
+      sphparam_program({"asset", folder / "two.obj", "-o", folder / "made", "--size", "64",
+                        "--no-page", "--resolution", "64", "--faces", "2000"});
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.err, Contains("what joins and closes it so is ") &&
+                            Contains(" of the map and ") &&
+                            Contains("`map --all-components` gives each part a map of its own"));
+}
+
+TEST_CASE("asset: --scale is of all lengths; without it what is too long for metres is told") {
+  const Folder folder;
+  TriangleMesh ball = icosphere(2);
+  ball.positions *= 150;  // millimetres
+  write_bytes(folder / "ball.obj", obj_text(ball));
+  const auto made = [&](std::vector<std::string> scale) {
+    std::vector<std::string> words = {"asset", folder / "ball.obj", "-o", folder / "made", "--size",
+                                      "64",    "--no-page"};
+    words.insert(words.end(), scale.begin(), scale.end());
+    const Ended ended = sphparam_program(words);
+    REQUIRE(ended.code == 0);
+    return ended.err;
+  };
+  CHECK_THAT(made({}), Contains("it is 300 m long in glTF") && Contains("--scale 0.001"));
+  CHECK_THAT(made({"--scale", "0.001"}), !Contains(" m long in glTF"));
+  CHECK_THAT(bytes_of(folder / "made/ball.sph.ply"), Contains("comment lengths times 0.001\n"));
+  const Ended apart = sphparam_program({"measure", folder / "made/ball.sph.ply",
+                                        folder / "made/ball.glb", "--upright", "--json", "-"});
+  CHECK(nlohmann::json::parse(apart.out)["two_sided"]["max"] < 1e-7);
+  CHECK(nlohmann::json::parse(apart.out)["first"]["diagonal"] < 0.53);
 }
 
 TEST_CASE("asset: a batch of some says which were mended and wrapped, and how they are distorted") {

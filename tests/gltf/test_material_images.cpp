@@ -235,8 +235,9 @@ TEST_CASE("look: what is the same all over takes no image, or one texel, which i
   CHECK(rough.materials[0].roughness == 0.2);
   CHECK(rough.materials[0].metallic == 0.6);
   CHECK(rough.images.size() == 1);  // the white base colour
-  CHECK(rough.remarks == Words{"orm.png is one colour: roughness 0.2 and metallic 0.6, without an "
-                               "image"});
+  CHECK(rough.remarks ==
+        Words{"the image orm is one colour: roughness 0.2 and metallic 0.6, without an "
+              "image"});
   const Json written = Json::parse(
       write_gltf(make_asset(ball(1, "ball.ply"), rough), {.container = GltfContainer::Embedded})
           .front()
@@ -249,16 +250,16 @@ TEST_CASE("look: what is the same all over takes no image, or one texel, which i
   CHECK(dim.materials[0].occlusion == 1);
   CHECK(dim.materials[0].metallic_roughness == 1);
   CHECK(decode_image({dim.images[1].bytes.begin(), dim.images[1].bytes.end()}, "o").width == 1);
-  CHECK(dim.remarks == Words{"orm.png is one colour: one texel"});
+  CHECK(dim.remarks == Words{"the image orm is one colour: one texel"});
 
   const Look bright = look_of({0.4F, 1, 0}, {1, 1, 1}, {0, 0, 0});
   CHECK(bright.images.size() == 1);
   CHECK(bright.materials[0].occlusion == -1);
   CHECK(bright.materials[0].emissive == -1);
   CHECK(bright.remarks ==
-        Words{"orm.png is one colour: roughness 1 and metallic 0, without an image",
-              "ao.png is one colour: it darkens nothing, and is left out",
-              "light.png is one colour: no light, and left out"});
+        Words{"the image orm is one colour: roughness 1 and metallic 0, without an image",
+              "the image occlusion is one colour: it darkens nothing, and is left out",
+              "the image emissive is one colour: no light, and left out"});
 
   const Look lamp = look_of({}, {0.5F, 0.5F, 0.5F}, {1, 0, 0});
   REQUIRE(lamp.images.size() == 3);

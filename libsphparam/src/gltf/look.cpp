@@ -151,17 +151,18 @@ class LookMaker {
     return static_cast<int>(look_.images.size()) - 1;
   }
 
-  void remark(const std::string& path, const std::string& what) {
-    look_.remarks.push_back(display_name(path) + " is one colour: " + what);
+  /// By its name among the images of the asset: its file may have none yet.
+  void remark(const std::string& image, const std::string& what) {
+    look_.remarks.push_back("the image " + image + " is one colour: " + what);
   }
 
   /// One texel where all are the same, which is told.
-  int add_small(const std::string& path, GivenImage given) {
+  int add_small(GivenImage given) {
     if (!uniform_colour(given.pixels) || given.pixels.width * given.pixels.height == 1)
       return add(std::move(given.asset));
     Image texel(1, 1, given.pixels.channels);
     texel.pixels.assign(given.pixels.pixel(0, 0), given.pixels.pixel(0, 0) + texel.channels);
-    remark(path, "one texel");
+    remark(given.asset.name, "one texel");
     return add(as_png(given.asset.name, texel));
   }
 
@@ -173,7 +174,7 @@ class LookMaker {
     const auto same = uniform_colour(given.pixels);
     const bool shows_occlusion = images.occlusion.empty() && same && (*same)[0] < 1;
     if (!same || shows_occlusion) {
-      material_.metallic_roughness = add_small(images.orm, std::move(given));
+      material_.metallic_roughness = add_small(std::move(given));
       if (images.occlusion.empty()) material_.occlusion = material_.metallic_roughness;
       return;
     }
@@ -183,25 +184,26 @@ class LookMaker {
     };
     material_.roughness = factor((*same)[1]);
     material_.metallic = factor((*same)[2]);
-    remark(images.orm, "roughness " + short_number(material_.roughness) + " and metallic " +
-                           short_number(material_.metallic) + ", without an image");
+    remark(given.asset.name, "roughness " + short_number(material_.roughness) + " and metallic " +
+                                 short_number(material_.metallic) + ", without an image");
   }
 
   void add_occlusion(const std::string& path) {
     if (path.empty()) return;
     GivenImage given = read(path, "occlusion");
     const auto same = uniform_colour(given.pixels);
-    if (same && (*same)[0] == 1) return remark(path, "it darkens nothing, and is left out");
-    material_.occlusion = add_small(path, std::move(given));
+    if (same && (*same)[0] == 1)
+      return remark(given.asset.name, "it darkens nothing, and is left out");
+    material_.occlusion = add_small(std::move(given));
   }
 
   void add_emission(const std::string& path) {
     if (path.empty()) return;
     GivenImage given = read(path, "emissive");
     if (uniform_colour(given.pixels) == std::array{0.0F, 0.0F, 0.0F})
-      return remark(path, "no light, and left out");
+      return remark(given.asset.name, "no light, and left out");
     const double strength = number_in(baked_text(given.texts, strength_text), 1);
-    material_.emissive = add_small(path, std::move(given));
+    material_.emissive = add_small(std::move(given));
     material_.emissive_strength = strength;
   }
 
