@@ -247,4 +247,18 @@ TEST_CASE("repair command: a name of no format, or one that is read, is refused 
   CHECK(sphparam_program({"repair", "-", "-o", "a.ply", "--loops", "a.ply"}, "").code == 2);
 }
 
+TEST_CASE("repair: an OBJ keeps the name of its material library, as it is called from there") {
+  const Folder folder;
+  std::filesystem::create_directory(folder / "out");
+  write_bytes(folder / "a.mtl", "newmtl p\nKd 1 0 0\n");
+  write_bytes(folder / "a.obj", "mtllib a.mtl\nusemtl p\n" + obj_text(icosphere(1)));
+  for (const auto& [made, line] :
+       {std::pair("b.obj", "mtllib a.mtl\n"), std::pair("out/b.obj", "mtllib ../a.mtl\n")}) {
+    const Ended ended = sphparam_program({"repair", folder / "a.obj", "-o", folder / made});
+    CHECK(ended.code == 0);
+    CHECK_THAT(ended.err, !Contains("colours and textures"));
+    CHECK_THAT(bytes_of(folder / made), Contains(line) && Contains("usemtl p\n"));
+  }
+}
+
 }  // namespace sphparam::tests

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <random>
 
+#include "folder.h"
 #include "io/files/file_bytes.h"
 #include "reading.h"
 #include "sphparam/io/mesh_writer.h"
@@ -85,6 +86,34 @@ TEST_CASE("mesh_reader: a file on disk reads like its bytes") {
   CHECK_THROWS_WITH(sphparam::read_mesh(path.string(), options),
                     Catch::Matchers::Contains("`--limit file=N` raises it"));
   std::filesystem::remove(path);
+}
+
+TEST_CASE("mesh_reader: what a link's mesh names is beside the link, or else beside the mesh") {
+  namespace fs = std::filesystem;
+  const Folder folder;
+  const auto write = [&](const char* name, const std::string& text) {
+    std::ofstream(folder.path / name) << text;
+  };
+  fs::create_directories(folder.path / "store");
+  fs::create_directories(folder.path / "work");
+  write("store/a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl p\nf 1 2 3\n");
+  write("store/a.mtl", "newmtl p\nKd 1 0 0\n");
+  fs::create_symlink("../store/a.obj", folder.path / "work/link.obj");
+  const auto red_of_link = [&] {
+    const MeshFile file = sphparam::read_mesh(folder.file("work/link.obj"));
+    REQUIRE(file.base_colours.size() == 1);
+    return file.base_colours[0].factor[0];
+  };
+  CHECK(red_of_link() == 1);
+  write("work/a.mtl", "newmtl p\nKd 0.5 0 0\n");
+  CHECK(red_of_link() == 0.5);
+  fs::remove(folder.path / "work/a.mtl");
+  fs::remove(folder.path / "store/a.mtl");
+  const MeshFile bare = sphparam::read_mesh(folder.file("work/link.obj"));
+  CHECK(bare.base_colours.empty());
+  CHECK(bare.notes == std::vector<std::string>{
+                          "not carried: colours and textures of 1 material in 'a.mtl' (No "
+                          "such file or directory), which is not read; their names are kept"});
 }
 
 TEST_CASE("mesh_reader: of what has no end no more is read than the limit") {

@@ -117,6 +117,13 @@ bool still_names_pages(const MeshFile& read) {
   return read.format.starts_with("PLY") && has_texture_pages(read);
 }
 
+/// Of an OBJ that was read without its folder.
+bool still_names_library(const MeshFile& read) {
+  return std::ranges::any_of(read.notes, [](const std::string& note) {
+    return note.find("colours and textures of ") != std::string::npos;
+  });
+}
+
 }  // namespace
 
 void add_loss(std::vector<std::string>& notes, const std::string& what) {
@@ -161,7 +168,8 @@ std::vector<std::string> losses_of_writing(const MeshFile& written, const MeshFi
   if (written.corner_tangents && !read.corner_tangents) add_loss(losses, "tangents");
   if (written.materials.size() > read.materials.size())
     add_loss(losses, counted(static_cast<long>(written.materials.size()), "material"));
-  if (!written.base_colours.empty() && read.base_colours.empty() && !still_names_pages(read))
+  if (!written.base_colours.empty() && read.base_colours.empty() && !still_names_pages(read) &&
+      !still_names_library(read))
     add_loss(losses, "colours and textures of materials");
   const auto lines = [](const MeshFile& file) {
     return std::count_if(file.comments.begin(), file.comments.end(), [](const std::string& line) {

@@ -177,6 +177,49 @@ void refuse_values(std::string_view bytes, const std::string& name, const ReadOp
                             shell_file(name) + "; `sphparam info` says what it holds");
 }
 
+/// Whether files that it names are not where they were looked for.
+bool lacks_companions(const MeshFile& file) {
+  const auto is_gone = [](const MaterialTexture& texture) {
+    std::error_code hidden;
+    return !texture.path.empty() &&
+           !std::filesystem::exists(std::filesystem::path(texture.folder) / texture.path, hidden);
+  };
+  const bool no_library =
+      file.format.starts_with("OBJ") && !file.materials.empty() && file.base_colours.empty();
+  return no_library || std::ranges::any_of(file.base_colours, is_gone);
+}
+
+/// Of a link the folder of the file that it leads to, where that is another one.
+std::optional<std::filesystem::path> folder_behind(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_symlink(path, error)) return std::nullopt;
+  const std::filesystem::path target = std::filesystem::canonical(path, error).parent_path();
+  const std::filesystem::path own = path.parent_path().empty() ? "." : path.parent_path();
+  if (error || std::filesystem::equivalent(own, target, error)) return std::nullopt;
+  return target;
+}
+
+/// Reads by a link: what the file names is beside the link, or else beside the file itself.
+MeshFile read_linked(const FileBytes& bytes, const std::filesystem::path& own,
+                     const std::filesystem::path& target, const ReadOptions& options) {
+  const auto from_target = [&]() -> std::optional<MeshFile> {
+    try {
+      return read_bytes(bytes.view(), bytes.name(), target, options);
+    } catch (const ReadError&) {
+      return std::nullopt;
+    }
+  };
+  try {
+    MeshFile file = read_bytes(bytes.view(), bytes.name(), own, options);
+    if (!lacks_companions(file)) return file;
+    std::optional<MeshFile> other = from_target();
+    return other && !lacks_companions(*other) ? *std::move(other) : file;
+  } catch (const ReadError&) {
+    if (std::optional<MeshFile> other = from_target()) return *std::move(other);
+    throw;
+  }
+}
+
 }  // namespace
 
 std::string readable_formats(const std::string& conjunction) {
@@ -199,8 +242,9 @@ MeshFile read_mesh(const std::string& path, const ReadOptions& options) {
   const FileBytes bytes(path, options);
   if (path == "-") return read_bytes(bytes.view(), bytes.name(), std::nullopt, options);
   try {
-    return read_bytes(bytes.view(), bytes.name(), std::filesystem::path(path).parent_path(),
-                      options);
+    const std::filesystem::path own = std::filesystem::path(path).parent_path();
+    if (const auto target = folder_behind(path)) return read_linked(bytes, own, *target, options);
+    return read_bytes(bytes.view(), bytes.name(), own, options);
   } catch (const ReadError&) {
     refuse_values(bytes.view(), bytes.name(), options);
     throw;

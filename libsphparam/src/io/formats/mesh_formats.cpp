@@ -4,6 +4,7 @@
 #include "io/formats/mesh_formats.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "io/formats/freesurfer_reader.h"
 #include "io/formats/freesurfer_writer.h"
@@ -27,6 +28,7 @@
 #include "io/formats/vtk/legacy_vtk_writer.h"
 #include "io/formats/vtk/xml_vtk_reader.h"
 #include "io/formats/vtk/xml_vtk_writer.h"
+#include "lower_case.h"
 #include "sphparam/io/brain_names.h"
 
 namespace sphparam {
@@ -74,8 +76,24 @@ std::string write_ply(const MeshFile& file, const WriteOptions& options) {
   return has_polygons ? serialise_polygon_ply(file, *faces) : serialise_ply(file);
 }
 
-std::string write_obj(const MeshFile& file, const WriteOptions& options) {
-  return options.faces ? serialise_polygon_obj(file, *options.faces) : serialise_obj(file);
+/// The material libraries that a mesh was read with, as they are called from beside `path`: those
+/// of what its materials look like still.
+std::vector<std::string> libraries_from(const std::string& path, const MeshFile& file) {
+  namespace fs = std::filesystem;
+  std::vector<std::string> names;
+  if (file.base_colours.empty()) return names;
+  const fs::path folder = fs::path(path).parent_path();
+  for (const std::string& companion : file.companions) {
+    if (!in_lower_case(companion).ends_with(".mtl")) continue;
+    std::error_code error;
+    const fs::path name = fs::relative(companion, folder.empty() ? "." : folder, error);
+    names.push_back(error || name.empty() ? companion : name.generic_string());
+  }
+  return names;
+}
+
+std::string write_obj(const MeshFile& file, const WriteOptions& options, const std::string& path) {
+  return serialise_obj(file, options.faces, libraries_from(path, file));
 }
 
 /// What the comments do not say of a brain's surface, its names do: its own, else that of the file
@@ -116,7 +134,7 @@ constexpr MeshFormat formats[] = {
      Evidence::Text,
      looks_like_obj,
      read_obj_files,
-     write<write_obj>,
+     write_obj,
      without_map,
      spheres_in_doubles},
     {"PLY",

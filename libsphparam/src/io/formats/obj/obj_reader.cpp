@@ -398,7 +398,7 @@ class ObjReader {
         read.problems.empty() ? quoted_all(libraries) : read.problems;
     if (file_.base_colours.empty())
       add_loss(file_.notes, "colours and textures of " + materials + " in " + enumerated(unread) +
-                                ", which is not read; their names are");
+                                ", which is not read; their names are kept");
     else if (!read.problems.empty())
       add_loss(file_.notes, "materials in " + enumerated(unread));
     if (!read.unknown.empty())

@@ -116,7 +116,8 @@ void put_faces(TextBuffer& text, const MeshFile& file, const WrittenFaces& faces
   }
 }
 
-std::string serialise(const MeshFile& file, const WrittenFaces& faces) {
+std::string serialise(const MeshFile& file, const WrittenFaces& faces,
+                      const std::vector<std::string>& libraries) {
   const Triangles& triangles = file.mesh.triangles;
   const auto texcoords = number_corners<2>(triangles, faces, file.corner_texcoords,
                                            find_all(file.vertex_properties, std::array{"s", "t"}));
@@ -125,6 +126,7 @@ std::string serialise(const MeshFile& file, const WrittenFaces& faces) {
                         find_all(file.vertex_properties, std::array{"nx", "ny", "nz"}));
   TextBuffer text(expected_text_bytes(file));
   put_comments(text, file);
+  for (const std::string& library : libraries) text << "mtllib " << one_line(library) << '\n';
   put_vertices(text, file);
   put_rows(text, "vt", texcoords.distinct);
   put_rows(text, "vn", normals.distinct);
@@ -134,10 +136,16 @@ std::string serialise(const MeshFile& file, const WrittenFaces& faces) {
 
 }  // namespace
 
-std::string serialise_obj(const MeshFile& file) { return serialise(file, triangles_of(file)); }
+std::string serialise_obj(const MeshFile& file) { return serialise_obj(file, nullptr, {}); }
 
 std::string serialise_polygon_obj(const MeshFile& file, const Polygons& faces) {
-  return serialise(file, {corners_in(file.mesh.triangles, faces), faces.starts});
+  return serialise_obj(file, &faces, {});
+}
+
+std::string serialise_obj(const MeshFile& file, const Polygons* faces,
+                          const std::vector<std::string>& libraries) {
+  if (!faces) return serialise(file, triangles_of(file), libraries);
+  return serialise(file, {corners_in(file.mesh.triangles, *faces), faces->starts}, libraries);
 }
 
 }  // namespace sphparam

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "sphparam/io/mesh_file.h"
 #include "sphparam/io/polygons.h"
@@ -16,5 +17,9 @@ std::string serialise_obj(const MeshFile& file);
 /// the triangles of `file` are the polygons cut, whichever diagonals; at a vertex of a polygon all
 /// its corners have the same attributes.
 std::string serialise_polygon_obj(const MeshFile& file, const Polygons& faces);
+
+/// Both, with the names of the libraries that have the materials. `faces`: null for triangles.
+std::string serialise_obj(const MeshFile& file, const Polygons* faces,
+                          const std::vector<std::string>& libraries);
 
 }  // namespace sphparam
