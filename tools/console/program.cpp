@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
-#include <map>
 #include <new>
 #include <optional>
 #include <span>
@@ -27,12 +26,13 @@
 #include "arguments/leading_options.h"
 #include "arguments/limits.h"
 #include "arguments/words.h"
-#include "bake/field_registry.h"
 #include "commands/command.h"
 #include "console/console.h"
 #include "console/exit_codes.h"
+#include "console/help.h"
 #include "console/interruption.h"
 #include "console/mending_advice.h"
+#include "console/mistakes.h"
 #include "console/places.h"
 #include "image/image_codec.h"
 #include "io/files/temporary_file.h"
@@ -49,114 +49,6 @@
 namespace sphparam::cli {
 
 namespace {
-
-constexpr char summary[] =
-    "Maps closed genus-0 triangle meshes one-to-one onto the sphere, and proves it.\n"
-    "\n"
-    "Examples:\n"
-    "  sphparam helmet.glb                            an asset, whole: one chart, all its images\n"
-    "  sphparam info statue.obj                       what it is, what is wrong with it\n"
-    "  sphparam map statue.obj -o statue.sph.ply      map it, prove it, write it\n"
-    "  sphparam bake statue.sph.ply --map normal-object,ao -o statue_{map}.png\n"
-    "  sphparam export statue.sph.ply --image statue_ao.png -o statue.glb   for game engines\n"
-    "  sphparam repair scan.ply -o mended.ply         mend it, whatever it is for\n"
-    "  sphparam wrap asset.glb -o wrapped.ply         a closed surface about any triangles\n"
-    "  sphparam survey scans/ -o survey.html          which of many map, which not and why\n"
-    "  sphparam verify statue.sph.ply                 prove a written map again\n"
-    "  sphparam render statue.sph.ply -o statue.png   look at it\n"
-    "  sphparam compare statue.obj -o statue/         all methods, side by side\n"
-    "  sphparam report statue.obj -o statue.html      a page to look at a map\n"
-    "  sphparam remesh statue.sph.ply --grid ico:7 -o statue_ico7.sph.ply\n"
-    "  sphparam measure statue.obj statue_ico7.sph.ply   how far two surfaces are apart\n";
-
-std::string footer() {
-  std::string text =
-      "Files: `-` is standard input or output. Messages go to standard error.\n"
-      "-q, -v, --progress, --threads, --max-memory and --limit may stand before the subcommand "
-      "too.\n"
-      "\n"
-      "Exit codes:\n";
-  for (const ExitMeaning& exit : exit_meanings) {
-    const std::string code = std::to_string(exit.code);
-    text += std::string(5 - code.size(), ' ') + code + "  " + exit.meaning + "\n";
-  }
-  return text;
-}
-
-/// Help as CLI11 makes it, without its remarks in the description.
-class Help : public CLI::Formatter {
- public:
-  Help() { column_width(34); }
-  std::string make_description(const CLI::App* app) const override {
-    return app->get_description() + "\n";
-  }
-  /// In the list of subcommands, the first line of each one's description.
-  std::string make_subcommand(const CLI::App* command) const override {
-    const std::string text = command->get_description();
-    std::stringstream line;
-    CLI::detail::format_help(line, command->get_name(), text.substr(0, text.find('\n')),
-                             get_column_width());
-    return line.str();
-  }
-};
-
-Words option_names(const CLI::App& app) {
-  Words names;
-  for (const CLI::Option* option : app.get_options()) {
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  }
-  return names;
-}
-
-Words command_names(const CLI::App& program) {
-  return names_of(program.get_subcommands({}), &CLI::App::get_name);
-}
-
-/// What to type now, for options that have changed their name.
-std::string present_spelling(const std::string& command, const std::string& option) {
-  static const std::map<std::pair<std::string, std::string>, std::string> renamed = {
-      {{"map", "--sphere"},
-       "--sphere names a sphere that is read, in other subcommands; --write-sphere FILE writes it"},
-      {{"map", "--charts"},
-       "a chart is what textures lie on, as in verify --chart; --plots FOLDER writes the "
-       "distortion"},
-      {{"remesh", "--normals"},
-       "--normals names an image that is read, in unimage; --normal-image FILE writes it"},
-      {{"export", "--texture"},
-       "--texture is for the mesh's own coordinates, in other subcommands; --image IMAGE is an "
-       "equirectangular image, as in paint"},
-      {{"export", "--textures"}, "--images FOLDER is a folder of `bake`"},
-      {{"export", "--normal"}, "--normal-map IMAGE is a normal map"},
-      {{"export", "--occlusion"},
-       "--occlusion darkens a picture, in render; --occlusion-map IMAGE is ambient occlusion"}};
-  const auto now = renamed.find({command, option});
-  return now == renamed.end() ? "" : command + ": " + now->second;
-}
-
-/// Once a flag in `info` and `verify`: where its file is missing, or it took the place of another.
-std::string hint_of_json(const CLI::App& command, const CLI::ParseError& error) {
-  const CLI::Option* json = command.get_option_no_throw("--json");
-  if (!json) return "";
-  const bool missing = std::string_view(error.what()).starts_with("--json:") &&
-                       error.get_name() == "ArgumentMismatch";
-  const bool swallowed = json->count() > 0 && error.get_name() == "RequiredError";
-  return missing || swallowed ? "; --json takes a file, `--json -` is standard output" : "";
-}
-
-/// Where an option complains whose name stood for another one once.
-std::string hint_of_rename(const CLI::App& command, const CLI::ParseError& error) {
-  const std::string message = error.what();
-  const std::string now =
-      present_spelling(command.get_name(), message.substr(0, message.find(':')));
-  return now.empty() ? "" : "; " + now;
-}
-
-/// Where a word that nothing takes names an image of `bake`.
-std::string hint_of_image(const CLI::App& command, const std::string& word) {
-  const Words kinds = names_of(field_makers(), [](const FieldMaker& maker) { return maker.name; });
-  const bool is_kind = std::ranges::count(kinds, word.substr(0, word.find(':'))) > 0;
-  return command.get_name() == "bake" && is_kind ? "; --map " + word + " bakes it" : "";
-}
 
 /// Where --json of this subcommand goes; empty: nowhere.
 std::string report_of(const CLI::App& command) {
@@ -197,40 +89,6 @@ int run_reported(const Command& command) try {
   throw;
 }
 
-/// The subcommand that was asked for, of a subcommand where that has some; else the program.
-const CLI::App& chosen_command(const CLI::App& program) {
-  const std::vector<CLI::App*> chosen = program.get_subcommands();
-  return chosen.empty() ? program : chosen_command(*chosen.front());
-}
-
-/// What is wrong with a command line, the mistyped word first: the other complaints follow from it.
-std::string explain(const CLI::App& program, const CLI::ParseError& error) {
-  const CLI::App& app = chosen_command(program);
-  const bool wants_subcommand = !app.get_subcommands({}).empty();
-  // An option that took the word before a stray one says more.
-  const auto kind = static_cast<CLI::ExitCodes>(error.get_exit_code());
-  const bool nothing_else =
-      kind == CLI::ExitCodes::ExtrasError || kind == CLI::ExitCodes::RequiredError;
-  bool are_files = false;  // what stands behind --
-  for (const std::string& word : app.remaining()) {
-    if (!are_files && word == "--") {
-      are_files = true;
-      continue;
-    }
-    const bool is_option = !are_files && word.size() > 1 && word.front() == '-';
-    if (is_option) {
-      const std::string name = word.substr(0, word.find('='));
-      const std::string now = present_spelling(app.get_name(), name);
-      if (!now.empty()) return now;
-      return "unknown option " + name + did_you_mean(name, option_names(app));
-    }
-    if (wants_subcommand)
-      return "unknown subcommand " + word + did_you_mean(word, command_names(app));
-    if (nothing_else) return "unexpected argument " + word + hint_of_image(app, word);
-  }
-  return error.what() + hint_of_json(app, error) + hint_of_rename(app, error);
-}
-
 int usage_error(const CLI::App& program, const std::string& message) {
   std::string name = "sphparam";
   for (const CLI::App* app = &program; !app->get_subcommands().empty();) {
@@ -244,12 +102,11 @@ int usage_error(const CLI::App& program, const std::string& message) {
 
 /// All subcommands, as they are declared.
 struct Program {
-  CLI::App app{summary, "sphparam"};
+  CLI::App app{program_summary, "sphparam"};
   std::vector<Command> commands;
 
   Program() {
-    app.formatter(std::make_shared<Help>());
-    app.footer(footer());
+    shape_help(app);
     app.set_version_flag("--version", std::string("sphparam ") + version);
     app.require_subcommand(0, 1);
     for (const auto declare :
@@ -349,7 +206,7 @@ int run_program(int argc, char** argv) {
     return usage_error(program.app,
                        std::string("--front: ") + error.what() + "; choose another one, or --up");
   }
-  std::fprintf(stderr, "%s\nMore: sphparam --help\n", summary);
+  std::fprintf(stderr, "%s\nMore: sphparam --help\n", program_summary);
   return UsageError;
 }
 
