@@ -259,9 +259,11 @@ TEST_CASE("handles: the wanted one of two loops is cut along") {
   CHECK(through.handles[0].length == Approx(2 * 3.14159 * 0.3).epsilon(0.1));
   CHECK(closed.handles[0].length == Approx(2 * 3.14159 * 0.7).epsilon(0.1));
   CHECK(through.handles[0].area_added == Approx(2 * 3.14159 * 0.09).epsilon(0.2));
-  // The caps through the tube have less area than those over the hole.
-  CHECK(repair_mesh(mesh, only_handles(10, HandleChoice::Area)).handles.at(0).length ==
-        Approx(through.handles[0].length));
+  // Of loops that are all found at once, the one whose caps have the least area.
+  const TriangleMesh coarse = bumped_torus(8, 10, 0.3, 0.05, 3);
+  const RepairedMesh by_area = repair_mesh(coarse, only_handles(10, HandleChoice::Area));
+  CHECK_FALSE(by_area.handles.at(0).filled);
+  CHECK(by_area.handles[0].length < 2);
   // Inside out it is the same surface, the other side.
   TriangleMesh inside_out = mesh;
   inside_out.triangles.col(1).swap(inside_out.triangles.col(2));
