@@ -141,7 +141,7 @@ class Embedder {
     complete_positions(hierarchy_[l], hierarchy_[l + 1], options_.threads);
     const HierarchyLevel &level = hierarchy_[l], &coarser = hierarchy_[l + 1];
     level_ = l;
-    packs_ = pack(l, pins_placed_, std::move(packs_));
+    packs_ = pack(l, std::move(packs_));
     ask_();
     for (int attempt = 0;; ++attempt) {
       prolong(level, coarser);
@@ -149,7 +149,7 @@ class Embedder {
       if (attempt == options_.retries) return false;
       ++report.retries;
       restrict(coarser);
-      const RingPacks coarse = pack(l + 1, pins_placed_);
+      const RingPacks coarse = pack(l + 1);
       for (int sweep = 0; sweep < 10 << attempt; ++sweep) {
         sweep_colours(coarse, 0, 1.0);
         ask_();
@@ -177,9 +177,14 @@ class Embedder {
                              options_.threads);
   }
 
-  RingPacks pack(size_t l, bool hold_pins, RingPacks used = {}) const {
-    return pack_rings(hierarchy_[l], floors_of(l), options_.threads,
-                      hold_pins ? pinned_[l] : std::vector<Vertex>{}, std::move(used));
+  /// The pins' names on a level once they are placed; none before.
+  std::vector<Vertex> held_pins(size_t l) const {
+    return pins_placed_ ? pinned_[l] : std::vector<Vertex>{};
+  }
+
+  /// `used`: packs whose memory is taken over.
+  RingPacks pack(size_t l, RingPacks used = {}) const {
+    return pack_rings(hierarchy_[l], floors_of(l), options_.threads, held_pins(l), std::move(used));
   }
 
   RestFloors floors_of(size_t l) const {
@@ -189,7 +194,7 @@ class Embedder {
   bool is_pressed() const { return pressed_.pressure() > 0; }
 
   void press(size_t l) {
-    const std::vector<Vertex> pinned = pins_placed_ ? pinned_[l] : std::vector<Vertex>{};
+    const std::vector<Vertex> pinned = held_pins(l);
     const SphereMap map = pressed_.pressed(l, triangle_mesh(hierarchy_[l]), map_of(image_), pinned);
     std::ranges::copy(image_of(map), image_.begin());  // which keeps its room
   }
@@ -206,7 +211,7 @@ class Embedder {
   }
 
   void refine_by_newton(size_t l, ProgressShare share) {
-    const std::vector<Vertex> pinned = pins_placed_ ? pinned_[l] : std::vector<Vertex>{};
+    const std::vector<Vertex> pinned = held_pins(l);
     if (l == 0) {
       packs_ = {};  // there is no room to spare in a Newton step
       hierarchy_.clear();
@@ -234,7 +239,7 @@ class Embedder {
                          .progress = options_.progress});
     std::ranges::copy(image_of(placement.map), image_.begin());  // which keeps its room
     pins_placed_ = true;
-    packs_ = pack(l, true, std::move(packs_));
+    packs_ = pack(l, std::move(packs_));
     const int sweeps = sweeps_on(hierarchy_[l].vertex_count());
     for (int sweep = 0; sweep < sweeps; ++sweep) {
       ask_();
@@ -306,7 +311,7 @@ class Embedder {
     }
     if (narrow.empty()) return;
     if (std::ssize(image_) >= protruding_level) refinement_.note_protrusions();
-    rings.open(std::move(narrow), pins_placed_ ? pinned_[level_] : std::vector<Vertex>{});
+    rings.open(std::move(narrow), held_pins(level_));
   }
 
   NarrowRings::Options narrow_options() const {
