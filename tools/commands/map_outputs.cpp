@@ -93,10 +93,9 @@ void add_sphere(const std::string& path, const MapArguments& arguments, const Ma
 /// A sphere of other vertices than the file's fits none that is there, but that of -o.
 void tell_whose_sphere(const MapArguments& arguments, const MapOutcome& outcome, Session& session) {
   if (outcome.source.repairs.empty() || !arguments.output.empty()) return;
-  const RepairOptions repairs = wanted_repairs(arguments.repair).value_or(RepairOptions::none());
   session.console.say("  " + output_name(arguments.sphere) +
                       ": is of the mended mesh, which no file holds: `sphparam repair " +
-                      shell_file(arguments.input) + " " + sphparam::options_line(repairs) +
+                      shell_file(arguments.input) + typed_again(arguments.repair) +
                       " -o MENDED` writes it");
 }
 
