@@ -57,6 +57,27 @@ TEST_CASE("matched files: colours are rounded means, labels those of the nearest
     CHECK((region == 7 || region == 1000));
 }
 
+TEST_CASE("matched files: what both have under one name is there of both") {
+  const auto with = [](const MappedMesh& mapped, std::vector<std::string> names, double value) {
+    MeshFile file = mapped.file();
+    for (const std::string& name : names)
+      file.set_vertex_property({name, ScalarType::Float32,
+                                std::vector<double>(size_t(mapped.mesh().vertex_count()), value)});
+    return with_file(mapped, std::move(file));
+  };
+  const MappedMesh a = with(ball(2), {"I", "own", "flow_0", "flow_1", "x", "x_a", "red"}, 1),
+                   b = with(ball(3), {"I", "flow_0", "flow_1", "x", "red"}, 2);
+  const MeshFile carried = with_other_values(SurfaceMap(a, b));
+  std::vector<std::string> names;
+  for (const Property& property : carried.vertex_properties) {
+    names.push_back(property.name);
+    const bool is_own = property.name == "own" || property.name.find("_a") != std::string::npos;
+    CHECK(property.values == std::vector<double>(162, is_own ? 1 : 2));
+  }
+  CHECK(names == std::vector<std::string>{"I_a", "own", "flow_a_0", "flow_a_1", "x_a_a", "x_a",
+                                          "red", "I", "flow_0", "flow_1", "x"});
+}
+
 TEST_CASE("matched files: colours are mixed as light") {
   const MappedMesh coarse = ball(0), fine = ball(1);
   MeshFile file = coarse.file();

@@ -334,6 +334,24 @@ TEST_CASE("group: shapes on the grid have what their vertices have, but normals"
   CHECK(group.mean.file().vertex_properties.empty());
 }
 
+TEST_CASE("group: points of another surface that a match has for vertices stay with these") {
+  MeshFile file;
+  file.mesh = bumpy(small_grid);
+  for (const char* name : {"heat", "target_face", "target_0", "target_1", "target_2"})
+    file.set_vertex_property(
+        {name, ScalarType::Float64, std::vector<double>(size_t(file.mesh.vertex_count()), 1)});
+  const MappedMesh shape(
+      {.file = std::move(file), .map = SphereMap{grid_sphere(small_grid).positions}});
+  const Group group = make_group({shape}, shape, {.hold = true, .grid = small_grid});
+  const GroupMember& member = group.members[0];
+  CHECK(member.mapped.file().find_vertex_property("target_face"));
+  CHECK(member.resampled.file().find_vertex_property("heat"));
+  for (const char* name : {"target_face", "target_0", "target_1", "target_2"})
+    CHECK_FALSE(member.resampled.file().find_vertex_property(name));
+  REQUIRE(member.warnings.size() == 1);
+  CHECK_THAT(member.warnings[0], Catch::StartsWith("not carried: target_face and target_0"));
+}
+
 TEST_CASE("group: fillers of kept holes have no weight, wherever they lie") {
   const Points sphere = grid_sphere(small_grid).positions;
   const auto made = [&](double cap) {

@@ -125,6 +125,24 @@ const Property& vertex_property(const MeshFile& file, const std::string& name) {
 
 }  // namespace
 
+TEST_CASE("remesh: points of another surface that a match has for vertices have no mean") {
+  const auto carried = [](std::vector<std::string> names) {
+    MeshFile file;
+    file.mesh = icosphere(2);
+    for (const std::string& name : names)
+      file.set_vertex_property({name, ScalarType::Float64, std::vector<double>(162, 1)});
+    SphereMap map{file.mesh.positions};
+    const MappedMesh mapped({.file = std::move(file), .map = std::move(map)});
+    const Remeshed made = remesh(mapped, grid_named("ico:2"), {.transfer = {"all"}});
+    std::vector<std::string> result;
+    for (const Property& property : made.file().vertex_properties) result.push_back(property.name);
+    return result;
+  };
+  using Names = std::vector<std::string>;
+  CHECK(carried({"heat", "target_face", "target_0", "target_1", "target_2"}) == Names{"heat"});
+  CHECK(carried({"heat", "target_0"}) == Names{"heat", "target_0"});  // somebody's own
+}
+
 TEST_CASE("remesh: a mesh on its own sphere is itself, bit for bit, with all it carries") {
   for (const TriangleMesh& mesh : {stretched_sphere(2), random_sphere_mesh(300, 4)}) {
     const Mapped source(mesh);

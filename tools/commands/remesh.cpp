@@ -13,6 +13,7 @@
 #include "commands/sources.h"
 #include "console/places.h"
 #include "io/attributes/appearance.h"
+#include "io/match_targets.h"
 #include "number_text.h"
 #include "remesh/wanted_values.h"
 #include "reports/remesh_wording.h"
@@ -204,6 +205,7 @@ void add_meshes(const RemeshArguments& arguments, const RemeshRequests& requests
   } else if (!arguments.output.empty()) {
     std::vector<std::string> left_behind;
     add_sampling_losses(left_behind, mapped.file());
+    add_match_loss(left_behind, mapped.file());
     tell_losses(arguments.output, left_behind, session.console);
     for (size_t level = 0; level < levels.size(); ++level)
       tell_losses(requests.outputs[level],

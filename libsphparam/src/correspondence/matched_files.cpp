@@ -10,6 +10,7 @@
 #include "io/attributes/other_coordinates.h"
 #include "io/attributes/texture_pages.h"
 #include "io/attributes/weightiest_label.h"
+#include "io/match_targets.h"
 #include "sphparam/io/sphere_file.h"
 
 namespace sphparam {
@@ -23,7 +24,7 @@ constexpr std::array not_carried = {"nx"sv,          "ny"sv,       "nz"sv,
                                     "theta"sv,       "phi"sv,      "source_vertex"sv,
                                     "target_face"sv, "target_0"sv, "target_1"sv,
                                     "target_2"sv};
-const std::vector<std::string> targets = {"target_face", "target_0", "target_1", "target_2"};
+const std::vector<std::string> targets(match_targets.begin(), match_targets.end());
 
 bool is_among(const auto& names, const std::string& name) {
   return std::ranges::find(names, name) != names.end();
@@ -61,6 +62,32 @@ MeshFile without_correspondence(const MeshFile& mapped) {
   MeshFile file = without_map(mapped);
   remove_properties(file.vertex_properties, targets);
   return file;
+}
+
+/// What a surface looks like, which that of the other one replaces as a whole.
+bool is_look(const std::string& name) { return is_colour_name(name) || name == "s" || name == "t"; }
+
+/// "I_a" of "I", "flow_a_0" of "flow_0", a column of a vector.
+std::string own_name(const std::string& name) {
+  const size_t digits = name.find_last_not_of("0123456789") + 1;
+  const bool is_column = digits > 1 && digits < name.size() && name[digits - 1] == '_';
+  const size_t end = is_column ? digits - 1 : name.size();
+  return name.substr(0, end) + "_a" + name.substr(end);
+}
+
+/// Numbers that both have under one name: the file's own get another, and another again where that
+/// is taken.
+void keep_own_values(MeshFile& file, const MeshFile& other) {
+  const auto is_taken = [&](const std::string& name) {
+    return file.find_vertex_property(name) || other.find_vertex_property(name);
+  };
+  for (Property& own : file.vertex_properties) {
+    if (is_look(own.name) || is_among(not_carried, own.name)) continue;
+    if (!other.find_vertex_property(own.name)) continue;
+    std::string name = own.name;
+    while (is_taken(name)) name = own_name(name);
+    own.name = std::move(name);
+  }
 }
 
 /// Corners 0, 1, 2 of each triangle become 0, 2, 1.
@@ -137,6 +164,7 @@ std::vector<std::string> names_of_values(const MeshFile& file) {
 
 MeshFile with_other_values(const SurfaceMap& map, int threads) {
   MeshFile file = without_correspondence(map.from().file());
+  keep_own_values(file, map.to().file());
   const std::vector<SurfacePoint> points = map.forth(threads);
   for (const Property& property : map.to().file().vertex_properties) {
     if (is_among(not_carried, property.name)) continue;

@@ -13,6 +13,7 @@
 #include "embedding/energy/energy_domain.h"
 #include "group/into_correspondence.h"
 #include "io/attributes/other_coordinates.h"
+#include "io/match_targets.h"
 #include "mesh/vertex_normals.h"
 #include "option_domain.h"
 #include "sphparam/correspondence/surface_map.h"
@@ -240,6 +241,7 @@ class GroupWork {
                         .warnings = std::move(brought.doubts)});
       std::vector<std::string>& warnings = result.back().warnings;
       std::ranges::move(brought.warnings, std::back_inserter(warnings));
+      add_match_loss(warnings, shapes_[i].file());
       if (auto facing = opposite_facing(shapes_[i], reference_))
         warnings.insert(warnings.begin(), *std::move(facing));
     }

@@ -4,6 +4,7 @@
 
 #include "io/attributes/corner_colours.h"
 #include "io/attributes/mixed_colour.h"
+#include "io/match_targets.h"
 #include "sphparam/remesh/remesh.h"
 
 namespace sphparam {
@@ -39,7 +40,8 @@ std::string list_of(const MeshFile& source) {
 
 }  // namespace
 
-WantedValues::WantedValues(const Names& words, const MeshFile& source) : words_(words) {
+WantedValues::WantedValues(const Names& words, const MeshFile& source)
+    : words_(words), is_matched_(has_match_targets(source)) {
   const Names known = {"all", "none", "position", "color", "colour", "normal", "uv", "material"};
   for (const std::string& word : words) {
     if (contains(known, word) || source.find_vertex_property(word) ||
@@ -52,6 +54,7 @@ WantedValues::WantedValues(const Names& words, const MeshFile& source) : words_(
 
 bool WantedValues::property(const std::string& name) const {
   if (contains(not_carried, name) || is_corner_colour(name)) return false;
+  if (is_matched_ && is_match_target(name)) return false;
   const auto group = [&](const auto& names, const char* word) {
     return contains(names, name) && contains(words_, word);
   };

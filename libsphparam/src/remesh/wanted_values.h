@@ -16,7 +16,9 @@ class WantedValues {
   /// Throws: NoSuchProperty for a word that names nothing the source has.
   WantedValues(const std::vector<std::string>& words, const MeshFile& source);
 
-  bool property(const std::string& name) const;  // of vertices or faces
+  /// Of vertices or faces. Not what belongs to the source's own vertices: numbers in a file, its
+  /// map, points that a match has for them.
+  bool property(const std::string& name) const;
 
   /// Throws: NoSuchProperty where the new vertices will not have what a geometry image is to show,
   /// as `add_geometry_image` has it.
@@ -27,6 +29,7 @@ class WantedValues {
 
  private:
   std::vector<std::string> words_;
+  bool is_matched_;
 };
 
 }  // namespace sphparam

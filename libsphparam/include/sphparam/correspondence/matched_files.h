@@ -18,9 +18,11 @@ MeshFile in_other_shape(const SurfaceMap& map, int threads = 0);
 /// The names of what vertices of this file carry that has a meaning on another surface.
 std::vector<std::string> names_of_values(const MeshFile& file);
 
-/// `from` with the vertex properties of `to`, linear in its triangles, colours as light: those of
-/// the same names are replaced. Labels are those of the nearest corner. Normals, which belong to the shape, and what
-/// says where vertices come from, or lie by another match, are not carried.
+/// `from` with the vertex properties of `to`, linear in its triangles, colours as light. Colours
+/// and texture coordinates are replaced; other numbers of `from` that have a name of `to` are kept
+/// under another: `I_a`, or `flow_a_0` of `flow_0`. Labels are those of the nearest corner.
+/// Normals, which belong to the shape, and what says where vertices come from, or lie by another
+/// match, are not carried.
 MeshFile with_other_values(const SurfaceMap& map, int threads = 0);
 
 /// The mesh reflected in the plane x = 0, its triangles turned round so that they look outward, and
