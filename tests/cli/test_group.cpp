@@ -274,6 +274,26 @@ TEST_CASE("group: a template that is no shape does not count, and held maps stay
   CHECK(count(eggs.in_out("mean.sph.ply")) == count(other));
 }
 
+TEST_CASE("group: a quoted pattern and a list stand for the shapes that they name") {
+  const Eggs eggs;
+  const std::string list = eggs.folder / "list.txt";
+  write_bytes(list, "egg0.obj\negg1.obj # the second\negg2.obj\n");
+  const std::string pattern = (fs::path(eggs.paths[0]).parent_path() / "egg?.obj").string();
+  for (const std::string& place : {list, pattern}) {
+    const Ended ended = sphparam_program(
+        {"group", place, "--hold", "--grid", "ico:2", "--size", "0", "-o", eggs.out});
+    INFO(ended.err);
+    REQUIRE(ended.code == 0);
+    const Json shapes = Json::parse(bytes_of(eggs.in_out("group.json")))["shapes"];
+    REQUIRE(shapes.size() == 3);
+    for (size_t i = 0; i < 3; ++i)
+      CHECK(fs::equivalent(fs::path(shapes[i]["file"].get<std::string>()), eggs.paths[i]));
+  }
+  const Ended none = sphparam_program({"group", eggs.folder / "*.nope", "-o", eggs.out});
+  CHECK(none.code == 2);
+  CHECK_THAT(none.err, Contains("*.nope"));
+}
+
 TEST_CASE("group: shapes of one name are told apart by their files") {
   const Eggs eggs;
   fs::create_directory(eggs.folder / "day2");

@@ -2,10 +2,12 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <string>
 
 #include "program.h"
 #include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/vertex_data.h"
 #include "support/test_meshes.h"
 
@@ -134,6 +136,26 @@ TEST_CASE("match: shapes and values of the other are carried over") {
       {"measure", creatures.second, shape, "--samples", "20000", "--max-rms", "2%"});
   INFO(distance.out);
   CHECK(distance.code == 0);
+}
+
+TEST_CASE("match: numbers of vertices that are another file's are told where they are asked for") {
+  const Creatures creatures;
+  MeshFile file = read_mesh(creatures.first);
+  std::vector<double> numbers(static_cast<size_t>(file.mesh.vertex_count()));
+  std::iota(numbers.begin(), numbers.end(), 100);
+  file.set_vertex_property({"source_vertex", ScalarType::Int32, numbers});
+  const std::string mended = creatures.folder / "mended.ply";
+  write_mesh(mended, file);
+  const std::string told = "mended.ply: vertices are called by source_vertex";
+  const std::string out = creatures.folder / "m.ply";
+  write_bytes(creatures.pairs, "100 0\n103 3\n105 5\n108 8\n110 10\n");
+  const Ended matched = sphparam_program(
+      {"match", mended, creatures.second, "--landmarks", creatures.pairs, "-o", out});
+  CHECK(matched.code == 0);
+  CHECK_THAT(matched.err, Contains(told));
+  CHECK_THAT(sphparam_program({"map", mended, "-o", out, "--poles", "100,103"}).err,
+             Contains(told));
+  CHECK_THAT(sphparam_program({"map", mended, "-o", out}).err, !Contains(told));
 }
 
 TEST_CASE("match: a morph is written, what its triangles miss is told, and only .glb will do") {
@@ -265,6 +287,11 @@ TEST_CASE("match: features come to lie on each other, from files and from proper
   INFO(alike.err);
   REQUIRE(alike.code == 0);
   CHECK(Json::parse(alike.out)["features"]["correlation"] > 0.9);
+
+  const Ended nothing = match(one + ",tow", carried);
+  CHECK(nothing.code == 3);
+  CHECK_THAT(nothing.err,
+             Contains("tow: is no file, and no property of the mesh's vertices, which have two"));
 
   const Ended odd = match(one, creatures.second);
   CHECK(odd.code == 2);

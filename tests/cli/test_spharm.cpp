@@ -4,6 +4,7 @@
 
 #include "program.h"
 #include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/mesh_writer.h"
 #include "sphparam/mesh/triangle_mesh.h"
 #include "support/test_meshes.h"
 
@@ -284,7 +285,22 @@ TEST_CASE("spharm: what makes no sense is refused, and nothing is written") {
   CHECK_FALSE(run({"--degree", "11"}).err.find("coefficients for") != std::string::npos);
   const Ended unknown = run({"--scalar", "gravty", "--csv", folder / "out.csv"});
   CHECK(unknown.code == 2);
-  CHECK_THAT(unknown.err, Contains("no property gravty"));
+  CHECK_THAT(unknown.err, Contains("no property gravty; they have none"));
+  TriangleMesh mesh = icosphere(1);
+  MeshFile file;
+  file.mesh = mesh;
+  for (const char* name : {"gravity", "flow_0", "flow_1", "flow_speed"})
+    file.set_vertex_property(
+        {name, ScalarType::Float64, std::vector<double>(size_t(mesh.vertex_count()), 1)});
+  const Folder other;
+  write_mesh(other / "ball.ply", file);
+  const auto told = [&](const char* scalar) {
+    return sphparam_program({"spharm", other / "ball.ply", "--scalar", scalar}).err;
+  };
+  CHECK_THAT(told("gravty"), Contains("no property gravty; they have gravity, flow_0, flow_1, "
+                                      "flow_speed; did you mean gravity?"));
+  CHECK_THAT(told("flow"),
+             Contains("no property flow, but its columns, each a scalar: flow_0, flow_1\n"));
   CHECK(run({"--reconstruct", folder / "out.stl"}).code == 2);
   CHECK(run({"--json", ball}).code == 2);
   CHECK(run({"--json", folder / "out", "--csv", folder / "out"}).code == 2);

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sphparam/gltf/morph.h"
+#include "sphparam/io/losses.h"
 #include "sphparam/parameterize.h"
 #include "support/glb_json.h"
 #include "support/test_meshes.h"
@@ -130,6 +131,22 @@ TEST_CASE("morph: extras tell where the other shape was put") {
   };
   CHECK(value("target") == "other.obj");
   CHECK(std::stod(value("target_scale")) == placement_on(map, Placement::Scaled).scale);
+}
+
+TEST_CASE("morph: numbers of both surfaces are told, which .glb has no place for") {
+  const SurfaceMap bare = two_pears();
+  const auto with_number = [](const MappedMesh& mapped, const char* name) {
+    MeshFile file = mapped.file();
+    file.set_vertex_property(
+        {name, ScalarType::Float64, std::vector<double>(size_t(file.mesh.vertex_count()), 1)});
+    return MappedMesh({.file = std::move(file), .map = mapped.map(), .name = mapped.name()});
+  };
+  const Asset asset = make_morph({with_number(bare.from(), "int0"), with_number(bare.to(), "int1")},
+                                 Placement::Scaled, small);
+  CHECK(losses_among(asset.warnings) ==
+        std::vector<std::string>{
+            "not carried: int0 of vertices: .ply has room for that",
+            "not carried: int1 of vertices of other.obj: .ply has room for that"});
 }
 
 TEST_CASE("morph: the looks of both surfaces are there, that of a bare one only beside none") {

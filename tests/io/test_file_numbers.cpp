@@ -190,6 +190,24 @@ TEST_CASE("file numbers: the count passes through the formats that keep the numb
   }
 }
 
+TEST_CASE("file numbers: a file whose numbers are another's says so, one that is dropped anew no") {
+  const Folder folder;
+  const auto says_so = [](const MeshSource& source) {
+    return std::ranges::count(source.notes, std::string(other_numbers_note)) == 1;
+  };
+  const MeshSource source = read_text(folder, with_unused);
+  CHECK_FALSE(says_so(source));  // the numbers are those of its own rows
+  for (const char* name : {"x.ply", "x.vtk", "x.vtp"}) {
+    write_mesh(folder.file(name), source.file);
+    CHECK(says_so(read_source(folder.file(name))));
+  }
+  MeshFile whole;
+  whole.mesh = tetrahedron();
+  whole.set_vertex_property({"source_vertex", ScalarType::Int32, {0, 1, 2, 3}});
+  write_mesh(folder.file("whole.ply"), whole);
+  CHECK_FALSE(says_so(read_source(folder.file("whole.ply"))));
+}
+
 TEST_CASE("file numbers: what cannot be the number of vertices is none") {
   MeshFile file = renumbered();
   CHECK(vertices_of_file(file) == 0);

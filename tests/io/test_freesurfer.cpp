@@ -116,6 +116,8 @@ TEST_CASE("freesurfer: a footer may be missing, start with its geometry, or say 
 
 TEST_CASE("freesurfer: what is no surface is refused by name, what is cut short by the place") {
   CHECK(contains(complaint(std::string("\xff\xff\xff\0\0\0\4", 7), "lh.curv"), "file of values"));
+  CHECK(contains(complaint("# HyperSurface 0.1 ASCII\n\nParameters {\n}\n", "a.surf"),
+                 "a.surf: this is a surface of Amira or Avizo (HyperSurface)"));
   const std::string bytes = as_written_by_freesurfer("");
   for (std::size_t size = 3; size < bytes.size(); ++size) {
     INFO(size);

@@ -14,6 +14,8 @@
 #include "console/places.h"
 #include "io/shell_word.h"
 #include "number_text.h"
+#include "reports/told_losses.h"
+#include "sphparam/batch/inputs.h"
 #include "sphparam/group/template_landmarks.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/sphere_file.h"
@@ -117,6 +119,7 @@ ReadShape read_shape(const std::string& path, const GroupArguments& arguments,
   session.hold_signals();
   MeshSource source = read_mended(path, arguments.repair, session);
   require_map(source, arguments);
+  if (!arguments.landmarks.empty()) tell_other_numbers(source, session.console);
   MendedShape mended = what_was_mended(source);
   return {map_source(std::move(source), "", session, arguments.repair), std::move(mended)};
 } catch (const MeshRefusal&) {
@@ -202,7 +205,28 @@ void tell_stale(const GroupArguments& arguments, const Words& written, Session& 
                           " of an earlier run, and not of this group");
 }
 
+/// Patterns that no shell expanded, and lists and tables, as batch reads them; meshes as they are.
+Words meshes_in(const Words& places) try {
+  Words meshes;
+  for (const std::string& place : places) {
+    const std::string kind = extension_of(place);
+    const bool is_list = kind == ".txt" || kind == ".csv" || kind == ".tsv";
+    const bool is_pattern = place.find_first_of("*?[") != std::string::npos;
+    std::error_code error;
+    if (is_list || (is_pattern && !std::filesystem::exists(place, error))) {
+      for (const BatchInput& shape : find_batch_inputs({place}).shapes)
+        meshes.push_back(shape.path);
+    } else {
+      meshes.push_back(place);
+    }
+  }
+  return meshes;
+} catch (const BatchInputError& error) {
+  throw UsageMistake(error.what());
+}
+
 int run_group(GroupArguments& arguments) {
+  arguments.inputs = meshes_in(arguments.inputs);
   require_sensible(arguments);
   require_folder(arguments.folder);
   require_other_files(arguments);
@@ -254,7 +278,10 @@ int run_group(GroupArguments& arguments) {
 }
 
 void declare_options(Declaration& command, GroupArguments& arguments) {
-  command.texts("SHAPES", arguments.inputs, " ", "A .sph.ply each, or any meshes: mapped first")
+  command
+      .texts("SHAPES", arguments.inputs, " ",
+             "A .sph.ply each, or any meshes: mapped first; or a quoted pattern, or a list (.txt, "
+             ".csv, .tsv), as batch takes them")
       .required()
       .output(arguments.folder, "FOLDER", "Where all files go; it is made where it is not there")
       .text("--template", arguments.reference, "FILE",

@@ -12,6 +12,7 @@
 #include "commands/sources.h"
 #include "io/inspected_source.h"
 #include "reports/map_wording.h"
+#include "reports/told_losses.h"
 #include "sphere/distinct_directions.h"
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/io/fillers.h"
@@ -46,10 +47,11 @@ constexpr char summary[] =
     "  sphparam map statue.obj -o mended.sph.ply --method tangential --repair-map\n";
 
 /// Poles, meridian and pins as vertices of the mesh.
-void settle_vertices(const std::string& pins, const MeshFile& file,
-                     ParameterizeOptions& options) try {
+void settle_vertices(const std::string& pins, const MeshSource& source,
+                     ParameterizeOptions& options, Console& console) try {
   if (!options.poles && !options.meridian && pins.empty()) return;
-  const FileNumbers numbers(file);
+  tell_other_numbers(source, console);
+  const FileNumbers numbers(source.file);
   options = with_vertices_of_mesh(std::move(options), numbers);
   if (!pins.empty()) options.pins = read_pins(pins, numbers);
   if (!options.poles) return;
@@ -161,7 +163,7 @@ MapOutcome compute(MeshSource source, const MapArguments& arguments, Session& se
   ParameterizeOptions& options = outcome.options;
   options.progress = session.progress();
   options.fillers = fillers_of(outcome.source.file);
-  settle_vertices(arguments.pins, outcome.source.file, options);
+  settle_vertices(arguments.pins, outcome.source, options, session.console);
   settle_upright(arguments, outcome);
   settle_directions(arguments, outcome.source, options);
   MethodRun made = run(arguments, outcome);

@@ -11,6 +11,7 @@
 #include "commands/sources.h"
 #include "console/console.h"
 #include "console/places.h"
+#include "reports/told_losses.h"
 #include "sphparam/correspondence/feature_file.h"
 #include "sphparam/correspondence/landmark_file.h"
 #include "sphparam/correspondence/matched_files.h"
@@ -139,9 +140,12 @@ int run_match(MatchArguments& arguments) {
   MeshSource first_source = read_side(a, arguments.repair, session),
              second_source = read_side(b, arguments.repair, session);
   // What they lack is told before they are mapped.
-  if (landmarks)
+  if (landmarks) {
+    for (const MeshSource* source : {&first_source, &second_source})
+      tell_other_numbers(*source, session.console);
     arguments.options.landmarks =
         landmarks->pairs(FileNumbers(first_source.file), FileNumbers(second_source.file));
+  }
   read_features_of(arguments, first_source.file, second_source.file);
   MappedMesh first = map_side(a, std::move(first_source), arguments.repair, session);
   const MappedMesh second = map_side(b, std::move(second_source), arguments.repair, session);

@@ -1,5 +1,6 @@
 #include "commands/match_outputs.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "commands/command.h"
@@ -7,10 +8,11 @@
 #include "sphparam/correspondence/matched_files.h"
 #include "sphparam/gltf/morph.h"
 #include "sphparam/io/certified_files.h"
+#include "sphparam/io/losses.h"
 #include "sphparam/io/map_files.h"
+#include "sphparam/io/paths.h"
 #include "sphparam/report/match_page.h"
 #include "sphparam/version.h"
-#include "sphparam/io/paths.h"
 
 namespace sphparam::cli {
 namespace {
@@ -39,7 +41,10 @@ void add_morph(const MatchArguments& arguments, const Match& match, Session& ses
     const Asset asset = make_morph(
         match.map, arguments.placement,
         {.up = arguments.up, .threads = session.threads(), .progress = session.progress()});
-    session.warn(asset.warnings);
+    const std::vector<std::string> losses = losses_among(asset.warnings);
+    tell_losses(arguments.morph, losses, session.console);
+    for (const std::string& warning : asset.warnings)
+      if (!std::ranges::count(losses, warning)) session.console.warning(warning);
     add_asset(session.files, arguments.morph, asset);
   });
 }

@@ -1,6 +1,8 @@
 // `sphparam spharm`: the surface, and what it carries, as a sum of spherical harmonics: the shape
 // description that a map to the sphere was first made for (Brechbühler, Gerig, Kübler 1995).
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "arguments/mesh_names.h"
@@ -51,14 +53,27 @@ struct SpharmArguments : CommonArguments {
   RepairArguments repair;
 };
 
+/// "nope; they have I, flow_0, flow_1", or what a vector's columns are called.
+std::string what_there_is(const MeshFile& file, const std::string& name) {
+  const Words names = names_of(file.vertex_properties, &Property::name);
+  const auto is_column = [&](const std::string& known) {
+    return known.starts_with(name + "_") &&
+           known.find_first_not_of("0123456789", name.size() + 1) == std::string::npos;
+  };
+  Words columns;
+  std::ranges::copy_if(names, std::back_inserter(columns), is_column);
+  if (!columns.empty()) return name + ", but its columns, each a scalar: " + joined(columns);
+  return name + "; they have " + (names.empty() ? "none" : joined(names)) +
+         did_you_mean(name, names);
+}
+
 void require_scalars(const MeshFile& file, const Words& scalars) {
   for (const std::string& name : scalars) {
     if (file.find_vertex_property(name)) continue;
     if (file.find_face_property(name))
       throw UsageMistake("--scalar: " + name +
                          " is a property of faces; harmonics are of what vertices have");
-    throw UsageMistake("--scalar: the vertices have no property " + name +
-                       did_you_mean(name, names_of(file.vertex_properties, &Property::name)));
+    throw UsageMistake("--scalar: the vertices have no property " + what_there_is(file, name));
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "sphparam/io/file_numbers.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/paths.h"
 
@@ -16,6 +17,11 @@ void tell_notes(const MeshSource& source, Console& console) {
   const std::vector<std::string> losses = losses_among(source.notes);
   for (const std::string& note : source.notes)
     if (!std::ranges::count(losses, note)) console.note(note);
+}
+
+void tell_other_numbers(const MeshSource& source, Console& console) {
+  if (std::ranges::count(source.notes, other_numbers_note))
+    console.say(display_name(source.path) + ": " + other_numbers_note);
 }
 
 void tell_losses_of_reading(const std::string& path, const std::vector<std::string>& notes,

@@ -10,6 +10,9 @@ namespace sphparam::cli {
 void tell_losses(const MeshSource& source, Console& console);
 /// That, and in detail what else reading it noted.
 void tell_notes(const MeshSource& source, Console& console);
+/// Says, where vertices are asked for by their numbers, that these are not rows of the file
+/// (`other_numbers_note`), if so.
+void tell_other_numbers(const MeshSource& source, Console& console);
 /// The losses among the notes of a reader.
 void tell_losses_of_reading(const std::string& path, const std::vector<std::string>& notes,
                             Console& console);

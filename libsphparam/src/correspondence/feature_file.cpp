@@ -8,6 +8,7 @@
 #include "correspondence/feature_scales.h"
 #include "number_text.h"
 #include "sphparam/io/file_numbers.h"
+#include "sphparam/io/paths.h"
 #include "sphparam/io/vertex_data.h"
 
 namespace sphparam {
@@ -16,6 +17,14 @@ namespace {
 const Property* property_of(const MeshFile& mesh, const std::string& name) {
   const auto found = std::ranges::find(mesh.vertex_properties, name, &Property::name);
   return found == mesh.vertex_properties.end() ? nullptr : &*found;
+}
+
+/// What is neither a file nor a property, beside the properties that there are.
+[[noreturn]] void refuse(const std::string& name, const MeshFile& mesh) {
+  std::vector<std::string> names;
+  for (const Property& property : mesh.vertex_properties) names.push_back(property.name);
+  throw ReadError(name, "is no file, and no property of the mesh's vertices, which have " +
+                            (names.empty() ? "none" : joined(names)));
 }
 
 Functions columns_of(const MeshFile& mesh, const std::vector<std::string>& names) {
@@ -59,6 +68,7 @@ Functions read_features(const std::string& file_or_property, const MeshFile& mes
       require_measure(*property);
       return columns_of(mesh, {file_or_property});
     }
+    if (!error && !is_stream(file_or_property)) refuse(file_or_property, mesh);
   }
   const VertexData data = read_vertex_data(file_or_property, vertices_of_file(mesh), options);
   if (data.kind == DataKind::Labels)

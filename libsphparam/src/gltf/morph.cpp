@@ -6,7 +6,9 @@
 
 #include "gltf/export_names.h"
 #include "io/attributes/appearance.h"
+#include "io/attributes/remarks.h"
 #include "number_text.h"
+#include "sphparam/io/losses.h"
 #include "sphparam/io/paths.h"
 
 namespace sphparam {
@@ -72,6 +74,14 @@ std::string text_of(const auto& rows) {
   return joined(numbers, " ");
 }
 
+/// What the target's vertices and faces have is in no file, either.
+void tell_numbers_left_out(const MappedMesh& target, Asset& asset) {
+  const std::vector<std::string> words = numbers_not_shown(target.file());
+  if (words.empty()) return;
+  add_loss(asset.warnings,
+           joined(words, " and ") + " of " + target.name() + ": .ply has room for that");
+}
+
 }  // namespace
 
 Asset make_morph(const SurfaceMap& map, Placement placement, ExportOptions options) {
@@ -82,6 +92,7 @@ Asset make_morph(const SurfaceMap& map, Placement placement, ExportOptions optio
   options.others = {
       placed(carried_shape(map, options.threads), similarity, stem_of(map.to().name()))};
   Asset asset = make_asset(map.from(), both_looks(map, options), options);
+  tell_numbers_left_out(map.to(), asset);
   asset.extras.insert(asset.extras.end(), {{"target", map.to().name()},
                                            {"target_scale", shortest(similarity.scale)},
                                            {"target_rotation", text_of(similarity.rotation)},

@@ -69,6 +69,14 @@ FileNumbers::FileNumbers(const MeshFile& file)
   std::sort(by_number_.begin(), by_number_.end());
 }
 
+bool has_other_numbers(const MeshFile& file) {
+  if (file.format == "ICQ") return false;
+  const std::vector<double> numbers = ids_in(file.find_vertex_property("source_vertex"));
+  for (size_t v = 0; v < numbers.size(); ++v)
+    if (numbers[v] != static_cast<double>(v)) return true;
+  return false;
+}
+
 Vertex FileNumbers::vertex(long number) const {
   if (numbers_.empty()) {
     return number >= 0 && number < vertices_ ? static_cast<Vertex>(number) : -1;

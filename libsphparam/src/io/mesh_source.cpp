@@ -72,6 +72,7 @@ MeshSource read_source(const std::string& path, const ReadOptions& options) {
   keep_companions(source.file);
   source.inspection = inspect_as_read(source.file);
   source.notes = source.file.notes;
+  if (has_other_numbers(source.file)) source.notes.emplace_back(other_numbers_note);
   MappableMesh mappable = make_mappable(std::move(source.file), &source.notes);
   source.file = std::move(mappable.file);
   source.topology = std::move(mappable.topology);

@@ -39,6 +39,18 @@ class FileNumbers {
   std::vector<double> face_numbers_;                  // by face; likewise
 };
 
+/// The note of a reader where vertices have other numbers than their rows in the very file: those
+/// of the file that it was made of, as repair writes them (`source_vertex`). They are called by
+/// these.
+inline constexpr char other_numbers_note[] =
+    "vertices are called by source_vertex, their numbers in the file that this one was made of, "
+    "not "
+    "by their rows";
+
+/// Whether the file of this mesh, as it was read, has such numbers; those of ICQ, which has each
+/// point of an edge twice, are its own. Cost: O(#V).
+bool has_other_numbers(const MeshFile& file);
+
 /// Defects of a mesh by the numbers that its file has for their places. What the file does not have
 /// is counted in their messages, and not among their elements.
 std::vector<MeshDefect> by_file_numbers(std::vector<MeshDefect> defects,

@@ -45,6 +45,10 @@ class FreeSurferReader {
 
  private:
   void require_surface() {
+    if (reader_.rest().starts_with("# HyperSurface"))
+      throw ReadError(name_,
+                      "this is a surface of Amira or Avizo (HyperSurface), which is not supported; "
+                      "both save it as PLY, OBJ or STL");
     const std::string_view magic = reader_.take(triangles_magic.size(), "its magic number");
     if (magic == triangles_magic) return;
     for (const std::string_view other : other_magics)
