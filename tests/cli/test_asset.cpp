@@ -183,7 +183,7 @@ TEST_CASE(
   const Folder folder;
   write_bytes(folder / "a.obj", "mtllib a.mtl\nusemtl p\n" + obj_text(icosphere(2)));
   const Ended ended = sphparam_program({"asset", folder / "a.obj", "-o", folder / "made", "--size",
-                                        "64", "--no-page", "--faces", "100", "-q", "--json", "-"});
+                                        "64", "--no-page", "--faces", "100", "--json", "-"});
   REQUIRE(ended.code == 0);
   CHECK_THAT(ended.err, Contains("warning: the asset comes out bare: without the colours and "
                                  "textures of 1 material in 'a.mtl' (No such file or directory)"));

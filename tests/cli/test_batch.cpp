@@ -530,6 +530,17 @@ TEST_CASE("batch: what steps warn of is told in the table, the page and the stat
   CHECK_THAT(bytes_of(shapes.folder / "all.html"), Contains("inside out"));
 }
 
+TEST_CASE("batch: folders that steps name for their results are made") {
+  const Shapes shapes(1);
+  shapes.plan({"map", "--", "bake", "--map", "position", "--size", "32", "-o", "img/", "--",
+               "export", "-o", "glb/lit/{id}.glb", "--image-size", "32"});
+  REQUIRE(shapes.batch("run").code == 0);
+  CHECK(shapes.status()["done"] == 1);
+  const std::string results = shapes.work + "/results/ball0/";
+  CHECK(fs::exists(results + "glb/lit/ball0.glb"));
+  CHECK(std::distance(fs::directory_iterator(results + "img"), {}) == 1);
+}
+
 TEST_CASE("batch: an item that needs too much memory fails alone") {
   const Shapes shapes(2);
   write_bytes(shapes.folder / "in/large.obj", obj_text(icosphere(6)));

@@ -213,6 +213,28 @@ TEST_CASE("export: an .obj is certified as read back, and a kept topology is tol
   CHECK(level["folded_as_stored"].size() + level["around_pole"].size() > 0);
 }
 
+TEST_CASE("export: --scale is of all lengths; without it what is too long for metres is told") {
+  const Folder folder;
+  TriangleMesh ball = icosphere(2);
+  ball.positions *= 150;  // millimetres
+  write_bytes(folder / "ball.obj", obj_text(ball));
+  const auto exported = [&](const char* option) {
+    const Ended ended = sphparam_program({"export", folder / "ball.obj", "-o", folder / "ball.glb",
+                                          "--up=y", "--image-size=32", option, "--json", "-"});
+    REQUIRE(ended.code == 0);
+    return ended;
+  };
+  CHECK_THAT(exported("--unlit").err, Contains("it is 300 m long in glTF"));
+  const Ended scaled = exported("--scale=0.001");
+  CHECK_THAT(scaled.err, !Contains("m long"));
+  CHECK(Json::parse(scaled.out)["notes"] == Json::array({"lengths times 0.001"}));
+  ball.positions /= 1000;
+  write_bytes(folder / "small.obj", obj_text(ball));
+  const Ended apart = sphparam_program(
+      {"measure", folder / "ball.glb", folder / "small.obj", "--samples", "1000", "--json", "-"});
+  CHECK(Json::parse(apart.out)["two_sided"]["max"] < 1e-7);
+}
+
 TEST_CASE("export: triangles that rounding folds are told without being asked") {
   const Egg egg;
   TriangleMesh ball = icosphere(2);

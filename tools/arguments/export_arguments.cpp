@@ -76,6 +76,9 @@ void declare_export_options(Declaration& command, ExportArguments& arguments) {
       .flag("--all-components", arguments.all_components,
             "Of MESH_0001 and so on, as `map --all-components` writes them; files are so numbered")
       .crease(arguments.crease)
+      .number("--scale", arguments.scale, "FACTOR", {1e-12, 1e12},
+              "Lengths become so many times as long: 0.001 where the file is in millimetres, as "
+              "glTF is in metres")
       .json(arguments);
   declare_look(command, arguments.exported.look);
   declare_chart(command, arguments.exported);

@@ -19,6 +19,7 @@ struct ExportArguments : CommonArguments {
   bool embedded = false, compress = false;
   int lods = 0;
   double crease = -1;  // degrees; below 0: none
+  double scale = 1;    // of lengths
   LodStyle lod_style = LodStyle::Files;
   RepairArguments repair;
 };

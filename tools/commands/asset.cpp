@@ -8,6 +8,7 @@
 #include "arguments/limits.h"
 #include "arguments/texture_arguments.h"
 #include "commands/command.h"
+#include "commands/lengths.h"
 #include "commands/sources.h"
 #include "console/places.h"
 #include "console/session.h"
@@ -47,6 +48,7 @@ constexpr char summary[] =
 struct AssetArguments : CommonArguments {
   std::string input, output;
   double crease = -1;  // degrees; below 0: none
+  double scale = 1;    // of lengths
   RemakeOptions options;
 };
 
@@ -108,8 +110,16 @@ RemadeAsset remade(const MeshSource& asset, const std::string& folder,
 }
 
 /// Before the record is written, which says so too.
-void warn_of(const RemadeAsset& made, Session& session) {
+void warn_of(const RemadeAsset& made, const AssetArguments& arguments, const std::string& folder,
+             Session& session) {
   session.warn(made.warnings);
+  if (made.whole.by != WholeBy::Wrap && arguments.options.whole.faces != WholeOptions{}.faces) {
+    const fs::path map = fs::path(folder) / (stem_or(arguments.input, "mesh") + ".sph.ply");
+    session.warn({"--faces is of wraps only, and this is none: it has all its " +
+                  counted(made.whole.mapped.mesh().face_count(), "triangle") +
+                  "; `sphparam remesh " + shell_file(map.string()) +
+                  " --grid ico:5 -o light.sph.ply` makes it lighter"});
+  }
   if (made.viewer_is_missing)
     session.console.warning("this build has no 3D viewer: the page has pictures instead");
 }
@@ -170,12 +180,14 @@ int run_asset(AssetArguments& arguments) {
   check_places({{"--json", arguments.json}});
   MeshSource asset = read_asset(arguments.input);
   tell_losses(asset, session.console);
+  scale_by(arguments.scale, asset.file, session);
   crease(asset.file, arguments.input, arguments.crease, session);
   const RemadeAsset made = remade(asset, folder.path(), arguments, session);
-  warn_of(made, session);
+  warn_of(made, arguments, folder.path(), session);
   session.add_report([&] { return to_json(asset, made); });
   session.publish();
   tell(made, folder.path(), arguments.options.textures, session);
+  tell_size(made.whole.mapped.mesh(), session);
   if (!arguments.options.up.direction && !noted_up(asset.file).direction)
     session.console.say("  z is taken to point up; --up y where it lies on its side");
   return Ok;
@@ -200,6 +212,7 @@ void declare_options(Declaration& command, AssetArguments& arguments) {
   declare_textures(command, options.textures, options.webp_quality);
   command.crease(arguments.crease)
       .up(options.up)
+      .number("--scale", arguments.scale, "FACTOR", {1e-12, 1e12}, about_scale)
       .flag_off("--no-page", options.page, "Without the page")
       .json(arguments)
       .threads(arguments)

@@ -295,9 +295,20 @@ void declare_options(Declaration& command, PlanArguments& arguments) {
       .console(arguments);
 }
 
+/// Results may lie in folders of their own: who names one wants it made.
+void make_folders_for(const std::vector<std::string>& words) {
+  for (const std::string& path : files_written_by(words)) {
+    if (path.starts_with('/') || path.starts_with("../")) continue;
+    std::error_code hidden;  // the step says that it cannot write there
+    if (const fs::path folder = fs::path(path).parent_path(); !folder.empty())
+      fs::create_directories(folder, hidden);
+  }
+}
+
 }  // namespace
 
 int run_batch_step(const std::vector<std::string>& words, const std::string& report, int threads) {
+  make_folders_for(words);
   return run_command_line(words, {{"--json", report}, {"--threads", std::to_string(threads)}},
                           step_has_no_room);
 }

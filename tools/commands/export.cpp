@@ -13,6 +13,7 @@
 #include "arguments/export_arguments.h"
 #include "arguments/part_files.h"
 #include "commands/command.h"
+#include "commands/lengths.h"
 #include "commands/sources.h"
 #include "console/places.h"
 #include "io/attributes/appearance.h"
@@ -122,6 +123,11 @@ class Exporter {
       told.push_back("  " + words_of(record_.textures));
     for (const std::string& line : level_lines(record_)) told.push_back("  " + line);
     return told;
+  }
+
+  bool is_gltf() const {
+    const std::string kind = extension_of(arguments_.output);
+    return kind != ".obj" && kind != ".ply";
   }
 
   const ExportRecord& record() {
@@ -260,6 +266,7 @@ MappedMesh read_exported(const ExportArguments& arguments, Session& session) {
   session.hold_signals();
   MeshSource source = read_mended(arguments.input, arguments.repair, session);
   crease(source.file, arguments.input, arguments.crease, session);
+  scale_by(arguments.scale, source.file, session);
   if (arguments.exported.source_uv && !has_texcoords(source.file))
     throw UsageMistake("--source-uv: the mesh has no texture coordinates of its own");
   return map_source(std::move(source), arguments.sphere, session, arguments.repair);
@@ -276,6 +283,7 @@ std::string export_one(const ExportArguments& arguments, Session& session, Words
   lines.push_back(display_name(arguments.input) + ": " + short_number(session.stopwatch.seconds()) +
                   " s → " + output_name(arguments.output));
   std::ranges::move(exporter.sizes(), std::back_inserter(lines));
+  if (exporter.is_gltf()) tell_size(mapped.mesh(), session);
   return to_json(exporter.record());
 }
 

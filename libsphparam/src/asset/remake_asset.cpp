@@ -210,6 +210,15 @@ class Remaker {
   RemadeAsset remade_;
 };
 
+/// An OBJ comes out bare where its material libraries could not be read.
+void tell_missing_libraries(std::vector<std::string>& told, const MeshFile& file) {
+  constexpr std::string_view mark = "colours and textures of ";
+  if (!file.base_colours.empty()) return;
+  for (const std::string& loss : losses_among(file.notes))
+    if (const std::size_t at = loss.find(mark); at != std::string::npos)
+      told.push_back("the asset comes out bare: without the " + loss.substr(at));
+}
+
 /// Takes images that cannot be used from the materials, which keep their factors; tells of each.
 std::vector<std::string> drop_unusable_images(MeshFile& file) {
   std::vector<std::string> told;
@@ -280,6 +289,7 @@ RemadeAsset remake_asset(const MeshSource& asset, const std::string& folder,
   require_domain(options);
   MeshSource usable = asset;
   std::vector<std::string> told = drop_unusable_images(usable.file);
+  tell_missing_libraries(told, usable.file);
   add_face_colour_loss(told, usable.file);
   add_default_material(usable.file);
   add_flat_normals(usable.file);

@@ -21,6 +21,7 @@
 #include "sphparam/io/upright_frame.h"
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/records/wrap_record.h"
+#include "sphparam/sphere/sphere_share.h"
 #include "sphparam/words.h"
 
 namespace sphparam {
@@ -40,6 +41,26 @@ bool is_flat(const TriangleMesh& mesh) {
     area += (b - a).cross(c - a).norm() / 2;
   }
   return std::abs(volume) <= hardly * area * std::sqrt(area);
+}
+
+/// The faces of a wrap that are farther from what it is about than its distance explains.
+FillerMarks far_faces(const Wrap& wrap) {
+  const double far = wrap.distance + 1.5 * wrap.voxel;
+  FillerMarks marks;
+  for (const auto& f : wrap.mesh.triangles.rowwise())
+    marks.push_back(wrap.apart.forth.at_vertices(f.transpose(), Eigen::all).minCoeff() > far);
+  return marks;
+}
+
+double area_share(const TriangleMesh& mesh, const FillerMarks& marked) {
+  double all = 0, theirs = 0;
+  for (Face f = 0; f < mesh.face_count(); ++f) {
+    const auto corner = [&](int k) { return mesh.position(mesh.triangles(f, k)); };
+    const double area = (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
+    all += area;
+    if (marked[static_cast<size_t>(f)]) theirs += area;
+  }
+  return theirs / all;
 }
 
 /// Maps closed surfaces, each way with what it tells.
@@ -171,7 +192,23 @@ class Chooser {
     if (!mapped)
       throw NotCertifiedError(
           asset_.path + ": the chart of its wrap is not one-to-one: another --resolution may do");
+    tell_walls(wrap, *mapped);
     return whole(*std::move(mapped), WholeBy::Wrap);
+  }
+
+  /// Thin bridges have as much of the map as their length wants: what that takes from the parts.
+  void tell_walls(const Wrap& wrap, const MappedMesh& mapped) {
+    constexpr double much = 0.05;
+    const FillerMarks walls = far_faces(wrap);
+    const double of_map = sphere_share(wrap.mesh.triangles, mapped.map(), walls);
+    if (of_map < much) return;
+    done_.push_back(
+        "what joins and closes it so is " + percent(area_share(wrap.mesh, walls)) +
+        " of its area, and takes " + percent(of_map) + " of the map and " +
+        percent(static_cast<double>(std::ranges::count(walls, 1)) /
+                static_cast<double>(walls.size())) +
+        " of the triangles" +
+        (wrap.parts > 1 ? ": `map --all-components` gives each part a map of its own" : ""));
   }
 
   WrapOptions wrap_options(const TriangleMesh& mesh) const {
