@@ -286,6 +286,8 @@ bad_uses = {
     "chart: too many": (lambda m: m.chart().carry(np.zeros((67, 2))), ValueError, "66 rows .* not 67×2"),
     "bake: columns": (lambda m: coloured().bake("scalar:color", size=16), ValueError, "3 columns.*scalar:red, scalar:green"),
     "bake_files: columns": (lambda m: coloured().bake_files({"scalar:color": "a.png"}), ValueError, "scalar:blue"),
+    "bake_files: a range of nothing": (lambda m: m.bake_files({"ao": "a.png"}, range=(0, 1)), ValueError, "range: .*scalar:NAME"),
+    "bake_files: a range turned round": (lambda m: m.bake_files({"scalar:a": "a.png"}, range=(1, 0)), ValueError, "range"),
     "measure: a seed beyond": (lambda m: sp.measure(m, m, seed=2**64), ValueError, "seed"),
     "measure: a text for a truth": (lambda m: sp.measure(m, m, extremes="no"), TypeError, "extremes: True or False"),
     "measure: a number for a side": (lambda m: sp.measure(m, m, signed=1), TypeError, "signed: True or False"),
