@@ -478,7 +478,7 @@ TEST_CASE("remesh_record: the finest level, and the others where there are sever
   CHECK(json["lods"][1]["file"] == "low_1.ply");
   CHECK(json["lods"][1]["rms"] == levels[1].distance->rms);
   CHECK(keys_of(json["outputs"]) ==
-        "mesh,limit_mesh,displacement,rebuilt,geometry_image,normals,attribute_images,csv");
+        "mesh,limit_mesh,displacement,rebuilt,geometry_image,normals,attribute_images,csv,data");
   CHECK(keys_of(json["seconds"]) == "grid,location,positions,total");
   CHECK(line_count(to_text(record_of())) == 3);
   levels.pop_back();
