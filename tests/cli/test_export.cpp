@@ -7,6 +7,7 @@
 #include "program.h"
 #include "sphparam/io/mesh_reader.h"
 #include "support/glb_json.h"
+#include "support/joined.h"
 #include "support/test_meshes.h"
 
 /// `sphparam export`.
@@ -233,6 +234,28 @@ TEST_CASE("export: --scale is of all lengths; without it what is too long for me
   const Ended apart = sphparam_program(
       {"measure", folder / "ball.glb", folder / "small.obj", "--samples", "1000", "--json", "-"});
   CHECK(Json::parse(apart.out)["two_sided"]["max"] < 1e-7);
+}
+
+TEST_CASE("export: parts get the images that bake made of each in one folder") {
+  const Folder folder;
+  TriangleMesh two = joined(icosphere(2), icosphere(1), {3, 0, 0});
+  write_bytes(folder / "two.obj", obj_text(two));
+  const std::string map = folder / "two.sph.ply", images = folder / "img";
+  REQUIRE(sphparam_program({"map", folder / "two.obj", "--all-components", "-o", map}).code == 0);
+  const auto exported = [&] {
+    return sphparam_program(
+        {"export", map, "--all-components", "--images", images, "-o", folder / "two.glb"});
+  };
+  std::filesystem::create_directory(images);
+  CHECK_THAT(exported().err, Contains("holds no image of two_0001"));
+  REQUIRE(sphparam_program(
+              {"bake", map, "--all-components", "--map", "ao", "--size", "32", "-o", images + "/"})
+              .code == 0);
+  CHECK(std::filesystem::exists(images + "/two_0002_ao.png"));
+  const Ended ended = exported();
+  INFO(ended.err);
+  CHECK(ended.code == 0);
+  CHECK(std::filesystem::exists(folder / "two_0002.glb"));
 }
 
 TEST_CASE("export: triangles that rounding folds are told without being asked") {

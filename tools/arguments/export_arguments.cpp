@@ -97,9 +97,10 @@ void check_export_arguments(const ExportArguments& a) {
                        (extension.empty() ? output_name(a.output) : extension));
   }
   for (const std::string& name : look.variants) place_among(variant_names(), name, "--variants");
-  refuse(
-      a.all_components && (is_stream(a.output) || !a.sphere.empty() || !look.folder.empty()),
-      "--all-components writes several files: give -o a name, and leave out --sphere and --images");
+  refuse(a.all_components && (is_stream(a.output) || !a.sphere.empty()),
+         "--all-components writes several files: give -o a name, and leave out --sphere: the maps "
+         "that "
+         "`map --all-components` writes have it in them");
   refuse(e.keep_topology && e.refine_poles > 1,
          "--refine-poles adds vertices, --keep-topology forbids them");
   refuse(e.morph != Morph::None && e.shape != ShapeKind::Mesh,

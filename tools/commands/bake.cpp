@@ -160,7 +160,10 @@ int run_bake(BakeArguments& arguments) {
   if (arguments.all_components && is_stream(arguments.output))
     throw UsageMistake("-o: --all-components makes several images: give a name, not a stream");
   if (arguments.all_components && !arguments.sphere.empty())
-    throw UsageMistake("--sphere is for one mesh, and --all-components bakes several");
+    throw UsageMistake(
+        "--sphere is for one mesh, and --all-components bakes several: name the map of all "
+        "parts as the mesh, as `map --all-components -o` does, and what it was made "
+        "of with --from");
   if (!arguments.from.empty() && !arguments.target.empty())
     throw UsageMistake("--from and --for: the images are for the mesh itself with --from");
   Session session(arguments);

@@ -4,6 +4,7 @@
 #include "sphparam/gltf/export.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <iterator>
 #include <optional>
@@ -17,6 +18,7 @@
 #include "commands/sources.h"
 #include "console/places.h"
 #include "io/attributes/appearance.h"
+#include "io/shell_word.h"
 #include "number_text.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/measure/measurable.h"
@@ -250,6 +252,30 @@ class Exporter {
   std::size_t image_bytes_ = 0;  // in all files
 };
 
+/// The images that `bake --all-components -o FOLDER/` made of a part, as if each were named.
+void take_images_of_part(LookOptions& look, const std::string& stem) {
+  const std::array<std::pair<const char*, std::string*>, 5> maps = {
+      {{"basecolor", &look.texture},
+       {"normal-tangent", &look.normal},
+       {"ao", &look.occlusion},
+       {"orm", &look.orm},
+       {"emissive", &look.emissive}}};
+  bool any = false;
+  for (const auto& [map, image] : maps) {
+    const std::filesystem::path path =
+        std::filesystem::path(look.folder) / (stem + "_" + map + ".png");
+    std::error_code hidden;
+    if (!std::filesystem::exists(path, hidden)) continue;
+    any = true;
+    if (image->empty()) *image = path.string();
+  }
+  if (!any)
+    throw ReadError(look.folder, "holds no image of " + stem + ": `bake --all-components -o " +
+                                     shell_word(look.folder + "/") + "` makes them, as " + stem +
+                                     "_basecolor.png");
+  look.folder.clear();
+}
+
 /// The arguments for one part: its files, where it has its own.
 ExportArguments of_part(ExportArguments arguments, int part) {
   arguments.input = path_of_part(arguments.input, part);
@@ -258,6 +284,7 @@ ExportArguments of_part(ExportArguments arguments, int part) {
   for (std::string* image :
        {&look.texture, &look.normal, &look.occlusion, &look.orm, &look.emissive})
     *image = file_for_part(*image, part);
+  if (!look.folder.empty()) take_images_of_part(look, stem_of(arguments.input));
   return arguments;
 }
 
