@@ -14,6 +14,7 @@
 #include "batch/shape_id.h"
 #include "batch/tables.h"
 #include "io/files/file_bytes.h"
+#include "io/formats/shapes/shape_tables.h"
 #include "number_text.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/paths.h"
@@ -117,11 +118,13 @@ class Finder {
     return at;
   }
 
+  /// Shape models of bodies are texts as well, and often called .txt.
   void list(const std::string& place) {
     const FileBytes bytes(place, std::numeric_limits<std::uint64_t>::max());
     constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
     std::string_view text = bytes.view();
     if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+    if (!is_stream(place) && shape_table(text) != ShapeTable::None) return add(place);
     for (std::string line : lines_of(text)) {
       line.resize(std::min(remark_in(line), line.size()));
       while (!line.empty() && (line.back() == ' ' || line.back() == '\t')) line.pop_back();

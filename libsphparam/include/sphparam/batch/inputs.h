@@ -33,7 +33,7 @@ struct BatchInputOptions {
 };
 
 /// What a batch is made of. A place is
-/// - a mesh;
+/// - a mesh, a shape model of a body (ICQ, plate table) also as .txt;
 /// - a pattern with *, ? or [ in it, as shells know them;
 /// - a table, .csv or .tsv, with a header: the column `path`, an `id` where wanted, and columns
 ///   whose values stand for {NAME} in the options of the batch;
