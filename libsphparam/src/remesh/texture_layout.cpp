@@ -8,7 +8,6 @@
 
 #include "io/attributes/texture_pages.h"
 #include "io/attributes/whole_vector.h"
-#include "io/attributes/texture_pages.h"
 #include "remesh/grids/grid_family.h"
 #include "remesh/texture_lattice.h"
 

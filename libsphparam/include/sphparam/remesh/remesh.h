@@ -75,13 +75,13 @@ class Remeshed : public MappedMesh {
 /// anew, or where mesh or map were moved since (`is_as_said`, planetocentric.h).
 ///
 /// Floating numbers are interpolated, and colours as light, normals made unit again, whole numbers
-/// are labels and never mixed. Texture coordinates and normals of corners come from the side of a seam that
-/// the face's middle lies on. Faces have the material and the properties of the source at their
-/// middle. Whatever is asked for, texture coordinates and properties of faces are point samples.
-/// Data of vertices may be NaN: what is a mean of it is NaN. The result's provenance says which
-/// grid and how, and how the source was mapped. Ensures: the same bytes for any number of threads;
-/// a grid vertex in the direction of a source vertex gets that vertex's values, bit for bit.
-/// Throws: NoSuchProperty for a name in `transfer` that the source has not; MeshError and
+/// are labels and never mixed. Texture coordinates and normals of corners come from the side of a
+/// seam that the face's middle lies on. Faces have the material and the properties of the source at
+/// their middle. Whatever is asked for, texture coordinates and properties of faces are point
+/// samples. Data of vertices may be NaN: what is a mean of it is NaN. The result's provenance says
+/// which grid and how, and how the source was mapped. Ensures: the same bytes for any number of
+/// threads; a grid vertex in the direction of a source vertex gets that vertex's values, bit for
+/// bit. Throws: NoSuchProperty for a name in `transfer` that the source has not; MeshError and
 /// NotCertifiedError for a grid of one's own that is no sphere; std::invalid_argument for a
 /// direction of it that is zero or not finite, for a spec as `make_grid`, for areas that are not
 /// one a vertex, and for an option outside of its domain; Cancelled.
