@@ -130,9 +130,9 @@ TEST_CASE("inputs: a list is relative to itself, has remarks, and all it names m
 TEST_CASE("inputs: a shape model of a body is a mesh, and no list, where it is called .txt") {
   TreeOfFiles tree({"other.ply"});
   tree.write("plates.txt", "4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n4\n1 3 2\n1 2 4\n1 4 3\n2 3 4\n");
-  CHECK(tree.ids("plates.txt") == Ids{"plates"});
+  CHECK(tree.ids("plates.txt") == Ids{"plates.txt"});
   tree.write("list.txt", "plates.txt\n");
-  CHECK(tree.ids("list.txt") == Ids{"plates"});
+  CHECK(tree.ids("list.txt") == Ids{"plates.txt"});
 }
 
 TEST_CASE("inputs: a sign of remarks within a name of a list belongs to the name") {
