@@ -193,7 +193,7 @@ std::unique_ptr<BakeScene> read_scene(const std::string& mesh, const std::string
   if (texture.empty()) {
     textures = read_textures(mapped.file(), 0);
   } else {
-    textures = {read_texture(texture, TextureWrap::Repeat, 0)};
+    textures = {read_texture(mapped.file(), texture, TextureWrap::Repeat, 0)};
   }
   return std::unique_ptr<BakeScene>(new BakeScene{
       {mapped, shading_normals(mapped.file()), textures}, make_target(mapped, true, 0), {}, 0});
