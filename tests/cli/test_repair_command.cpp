@@ -261,4 +261,15 @@ TEST_CASE("repair: an OBJ keeps the name of its material library, as it is calle
   }
 }
 
+TEST_CASE(
+    "repair: a material library that is a link is called by the link, not by where it leads") {
+  const Folder folder;
+  std::filesystem::create_directory(folder / "store");
+  write_bytes(folder / "store/5f3a.mtl", "newmtl p\nKd 1 0 0\n");
+  std::filesystem::create_symlink("store/5f3a.mtl", folder / "a.mtl");
+  write_bytes(folder / "a.obj", "mtllib a.mtl\nusemtl p\n" + obj_text(icosphere(1)));
+  CHECK(sphparam_program({"repair", folder / "a.obj", "-o", folder / "b.obj"}).code == 0);
+  CHECK_THAT(bytes_of(folder / "b.obj"), Contains("mtllib a.mtl\n"));
+}
+
 }  // namespace sphparam::tests

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "io/files/temporary_file.h"
 #include "io/formats/freesurfer_reader.h"
 #include "io/formats/freesurfer_writer.h"
 #include "io/formats/gifti/gifti_reader.h"
@@ -76,19 +77,22 @@ std::string write_ply(const MeshFile& file, const WriteOptions& options) {
   return has_polygons ? serialise_polygon_ply(file, *faces) : serialise_ply(file);
 }
 
+/// A file as it is called from a folder: a link keeps its name, what it names lies beside it.
+std::string name_from(const std::filesystem::path& folder, const std::filesystem::path& file) {
+  std::error_code error;
+  const std::filesystem::path way = std::filesystem::relative(folder_of(file), folder, error);
+  if (error || way.empty()) return file.string();
+  return (way / file.filename()).lexically_normal().generic_string();
+}
+
 /// The material libraries that a mesh was read with, as they are called from beside `path`: those
 /// of what its materials look like still.
 std::vector<std::string> libraries_from(const std::string& path, const MeshFile& file) {
-  namespace fs = std::filesystem;
   std::vector<std::string> names;
   if (file.base_colours.empty()) return names;
-  const fs::path folder = fs::path(path).parent_path();
-  for (const std::string& companion : file.companions) {
-    if (!in_lower_case(companion).ends_with(".mtl")) continue;
-    std::error_code error;
-    const fs::path name = fs::relative(companion, folder.empty() ? "." : folder, error);
-    names.push_back(error || name.empty() ? companion : name.generic_string());
-  }
+  for (const std::string& companion : file.companions)
+    if (in_lower_case(companion).ends_with(".mtl"))
+      names.push_back(name_from(folder_of(path), companion));
   return names;
 }
 
