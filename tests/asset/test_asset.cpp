@@ -9,6 +9,8 @@
 
 #include "../io/folder.h"
 #include "image/image_codec.h"
+#include "io/files/base64.h"
+#include "report/viewer.h"
 #include "sphparam/asset/remake_asset.h"
 #include "sphparam/errors.h"
 #include "sphparam/io/certified_files.h"
@@ -468,6 +470,35 @@ TEST_CASE("remake asset: the page has the pictures, the words and the channels")
        {"Wrapped in one closed surface", "What stood in the way", "2 separate components",
         "Before and after", "mesh_orm.png", "All figures"})
     CHECK_THAT(page, Catch::Contains(text));
+}
+
+TEST_CASE("remake asset: the page's test images lie on paper, whatever the asset is of") {
+  if (!installed_viewer()) return;
+  const Folder folder;
+  PendingFiles files;
+  remake_asset(painted(source_of(icosphere(2), "-")), folder.path.string(),
+               {.whole = coarse(), .width = 32}, files);
+  files.publish();
+  const std::string page = bytes_of(folder.path.string() + "/mesh.html");
+  const std::string head = "data:model/gltf-binary;base64,", magic = "Z2xURg";
+  const size_t first = page.find(head + magic) + head.size();
+  const std::string text = page.substr(first, page.find('<', first) - first);
+  std::string glb;
+  const auto filling = static_cast<size_t>(std::ranges::count(text, '='));
+  REQUIRE(Base64Reader(text).read(text.size() / 4 * 3 - filling, glb));
+  const nlohmann::json made = json_of(glb);
+  int checkers = 0;
+  for (const auto& material : made["materials"]) {
+    const auto& pbr = material["pbrMetallicRoughness"];
+    const bool is_checker = material["name"] == "checker";
+    checkers += is_checker;
+    if (is_checker || material["name"] == "baked") {
+      CHECK(pbr["metallicFactor"] == (is_checker ? 0 : 1));
+      CHECK_THAT(pbr["roughnessFactor"].get<double>(),
+                 Catch::WithinAbs(is_checker ? 1 : 0.25, 0.002));
+    }
+  }
+  CHECK(checkers == 1);
 }
 
 TEST_CASE("whole surface: pieces that rounding keeps apart are welded, not wrapped") {

@@ -98,6 +98,7 @@ class AssetPage {
       look.images.push_back(from.images[static_cast<std::size_t>(material.base_colour)]);
       material.base_colour = static_cast<int>(look.images.size()) - 1;
       material.normal = material.occlusion = material.metallic_roughness = material.emissive = -1;
+      material.roughness = 1, material.metallic = 0;
       surfaces.push_back({material.name, material.name == "checker" ? "Checker" : "Graticule"});
       look.materials.push_back(std::move(material));
     }
