@@ -204,7 +204,7 @@ TEST_CASE("asset: of parts that lie far apart the share of what joins them is to
                             Contains("`map --all-components` gives each part a map of its own"));
 }
 
-TEST_CASE("asset: --scale is of all lengths; without it what is too long for metres is told") {
+TEST_CASE("asset: --scale is of all lengths, and without it what is too long for metres is told") {
   const Folder folder;
   TriangleMesh ball = icosphere(2);
   ball.positions *= 150;  // millimetres

@@ -214,7 +214,7 @@ TEST_CASE("export: an .obj is certified as read back, and a kept topology is tol
   CHECK(level["folded_as_stored"].size() + level["around_pole"].size() > 0);
 }
 
-TEST_CASE("export: --scale is of all lengths; without it what is too long for metres is told") {
+TEST_CASE("export: --scale is of all lengths, and without it what is too long for metres is told") {
   const Folder folder;
   TriangleMesh ball = icosphere(2);
   ball.positions *= 150;  // millimetres
