@@ -28,7 +28,8 @@ struct FirstOrderAlignment {
   /// from these: by skewness (below 0.01), or by the template; 0: all are told apart.
   double undecided = 0;
   /// With a template: 1 − the distance of the nearest half turn to it over that of the next that
-  /// makes a difference. Below 0.1 the template decides nothing.
+  /// makes a difference. Below 0.1 the template hardly tells them apart: skewness decides, if it
+  /// can.
   double confidence = 1;
   bool by_skewness = true;  // what decided the half turn; else the template
 };
