@@ -133,6 +133,12 @@ TEST_CASE("texture seams: edges whose faces do not agree on their ends, or on th
   CHECK(seamed(file.mesh.triangles, apart, &two).seams == std::vector<std::uint8_t>{7, 7});
   apart(4, 0) += 1e-3;
   CHECK(seamed(file.mesh.triangles, apart, nullptr).seams == std::vector<std::uint8_t>{7, 7});
+  apart(4, 0) -= 1e-3;
+  apart.topRows(3).col(1).array() += 2;
+  CHECK(seamed(file.mesh.triangles, apart, nullptr).seams ==
+        std::vector<std::uint8_t>{5 + (2 << 3), 3 + (4 << 3)});
+  apart(0, 0) += 1;  // the images of one end are others
+  CHECK(seamed(file.mesh.triangles, apart, nullptr).seams == std::vector<std::uint8_t>{7, 7});
   CHECK(seamed(file.mesh.triangles, {}, nullptr).seams.empty());
 }
 
@@ -152,4 +158,15 @@ TEST_CASE(
   sample_texture(texture, TextureFilter::Bilinear, line, rgb.data(), 3);
   CHECK(rgb[9] < 1);  // half a texel from the right half, of samples 5 wide
   CHECK(rgb[0] == 1);
+  const std::vector<float> across = rgb;
+  line.face.seams = 1 << 3;  // an image that repeats goes on
+  sample_texture(texture, TextureFilter::Bilinear, line, rgb.data(), 3);
+  CHECK(rgb == across);
+  SourceTexture once = texture, half = texture;
+  once.wrap_s = TextureWrap::Clamp;
+  half.placement[0][0] = 0.5;
+  for (const SourceTexture& other : {once, half}) {
+    sample_texture(other, TextureFilter::Bilinear, line, rgb.data(), 3);
+    CHECK(rgb[9] == 1);
+  }
 }

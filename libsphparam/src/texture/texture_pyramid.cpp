@@ -154,6 +154,22 @@ int floor_of(double x) {
 /// What is no number, as coordinates of files may be, is 0.
 double bounded(double x) { return std::isnan(x) ? 0 : std::clamp(x, -1e9, 1e9); }
 
+/// What is whole numbers apart in the mesh's coordinates is one place of the image.
+bool goes_on(const SourceTexture& texture) {
+  const auto is_whole = [](double x) { return x == std::round(x); };
+  const bool repeats =
+      texture.wrap_s == TextureWrap::Repeat && texture.wrap_t == TextureWrap::Repeat;
+  return repeats && std::ranges::all_of(texture.placement, [&](const auto& row) {
+           return is_whole(row[0]) && is_whole(row[1]);
+         });
+}
+
+/// Those of a face that are seams of this texture.
+unsigned seams_on(const SourceTexture& texture, unsigned seams) {
+  constexpr unsigned of_all = 7;
+  return (goes_on(texture) ? seams : seams | seams >> 3) & of_all;
+}
+
 class Sampler {
  public:
   Sampler(const SourceTexture& texture, TextureFilter filter, const TextureLine& line)
@@ -161,7 +177,8 @@ class Sampler {
     x_ = near_zero(line.first[0], texture.wrap_s);
     y_ = near_zero(line.first[1], texture.wrap_t);
     if (filter != TextureFilter::Nearest) measure_footprint();
-    if (half_wide_ > 0 && line.face.seams != 0) measure_face();
+    if (half_wide_ > 0) seams_ = seams_on(texture, line.face.seams);
+    if (seams_ != 0) measure_face();
     const bool magnified = taps_ == 1 && coarse_share_ == 0 && level_ == 0;
     if (texture.nearest && magnified) filter_ = TextureFilter::Nearest;
   }
@@ -257,7 +274,7 @@ class Sampler {
   double room_within_seams(int i) const {
     double room = std::numeric_limits<double>::infinity();
     for (int k = 0; k < 3; ++k) {
-      if ((line_.face.seams >> k & 1) == 0) continue;
+      if ((seams_ >> k & 1) == 0) continue;
       room = std::min(room, heights_[k] * (line_.face.first[k] + i * line_.face.step[k]));
     }
     return room;
@@ -340,6 +357,7 @@ class Sampler {
   float coarse_share_ = 0;
   double half_wide_ = 0;  // texels; 0: none is smaller than a sample
   double wide_[2] = {0, 0};
+  unsigned seams_ = 0;  // bit k: the side of its face that faces corner k, where that matters
   double heights_[3] = {0, 0, 0};
 };
 

@@ -40,7 +40,7 @@ struct TextureLine {
 
   /// The face that the samples are on, by where its corners look; sample i has the barycentric
   /// weights first + i·step. Bit k of `seams`: beyond the side that faces corner k the image is of
-  /// another place.
+  /// another place; bit 3 + k: it is unless it repeats.
   struct Face {
     unsigned seams = 0;
     double corners[3][2] = {};
