@@ -94,6 +94,29 @@ TEST_CASE("on_sphere: colours and texture coordinates are linear on the chords")
   }
 }
 
+TEST_CASE("on_sphere: sides of pieces are seams where they are part of one") {
+  RenderObject object = octahedron();
+  TexturePaint texture;
+  texture.texcoords.corners = CornerTexcoords::Zero(24, 2);
+  for (const unsigned wanted : {7u, 7u << 3}) {
+    texture.texcoords.seams.assign(8, static_cast<std::uint8_t>(wanted));
+    object.paint = texture;
+    const RenderObject sphere = on_sphere(object, object.mesh.positions);
+    const SeamedTexcoords& cut = std::get<TexturePaint>(sphere.paint).texcoords;
+    REQUIRE(sphere.mesh.face_count() > 8);
+    REQUIRE(std::ssize(cut.seams) == sphere.mesh.face_count());
+    for (Face f = 0; f < sphere.mesh.face_count(); ++f) {
+      unsigned sides = 0;  // those in the planes of the octahedron's
+      for (int k = 0; k < 3; ++k) {
+        const Vector3 a = sphere.mesh.position(sphere.mesh.triangles(f, (k + 1) % 3)),
+                      b = sphere.mesh.position(sphere.mesh.triangles(f, (k + 2) % 3));
+        if (((a.array() == 0) && (b.array() == 0)).any()) sides |= 1u << k;
+      }
+      CHECK(cut.seams_of(f) == (wanted == 7 ? sides : sides << 3));
+    }
+  }
+}
+
 TEST_CASE("on_sphere: opposite and equal rays do not keep it busy") {
   RenderObject object = octahedron();
   Points rays = object.mesh.positions;

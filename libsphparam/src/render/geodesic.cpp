@@ -153,6 +153,20 @@ FacePaint refined(const FacePaint& paint, const Refinement& refinement) {
   return result;
 }
 
+/// Those of a source's seams (texture_seams.h) that the sides of its piece are part of.
+std::uint8_t seams_of(const Piece& piece, unsigned seams) {
+  constexpr unsigned of_first_side = 1 + (1 << 3);
+  unsigned result = 0;
+  for (int side = 0; side < 3; ++side) {
+    for (int k = 0; k < 3; ++k) {
+      const bool is_on =
+          piece.weights((side + 1) % 3, k) == 0 && piece.weights((side + 2) % 3, k) == 0;
+      if (is_on) result |= (seams >> k & of_first_side) << side;
+    }
+  }
+  return static_cast<std::uint8_t>(result);
+}
+
 TexturePaint refined(const TexturePaint& paint, const Refinement& refinement) {
   TexturePaint result{.texcoords = {}, .textures = paint.textures};
   if (!paint.texture_of.empty()) {
@@ -167,6 +181,7 @@ TexturePaint refined(const TexturePaint& paint, const Refinement& refinement) {
     result.texcoords.corners.middleRows<3>(row) =
         piece.weights.cast<double>() * paint.texcoords.corners.middleRows<3>(3 * piece.source);
     row += 3;
+    result.texcoords.seams.push_back(seams_of(piece, paint.texcoords.seams_of(piece.source)));
   }
   return result;
 }
