@@ -142,6 +142,7 @@ void tell(const RemadeAsset& made, const std::string& folder, TextureFormat text
       counted(static_cast<long>(made.baked.images.size()), "image") + " baked, " +
       short_number(session.stopwatch.seconds()) + " s → " + fs::path(folder).append("").string());
   session.console.say("  " + made.sizes);
+  for (const std::string& remark : made.remarks) session.console.say("  " + remark);
   session.console.say("  in the .glb: " + counted(made.chart.triangles, "triangle") + ", " +
                       counted(made.chart.vertices, "vertex", "vertices"));
   if (textures != TextureFormat::Given)
@@ -150,7 +151,6 @@ void tell(const RemadeAsset& made, const std::string& folder, TextureFormat text
 
 /// Before any work. A folder is no file that could be replaced.
 void require_sense(const AssetArguments& arguments) {
-  for (const std::string& remark : made.remarks) session.console.say("  " + remark);
   std::error_code hidden;  // what cannot be asked is not there, and making it says why
   if (is_mesh_name(arguments.output) && !fs::is_directory(arguments.output, hidden))
     check_places({{"-o", arguments.output}});
