@@ -1,8 +1,6 @@
 // `sphparam render`: pictures of a mesh and of its map, side by side, in the same colours, so that
 // one sees where each part of the shape went.
 
-#include <charconv>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 

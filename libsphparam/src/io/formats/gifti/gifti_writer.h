@@ -17,8 +17,8 @@ struct GiftiOptions {
 /// labels (gifti_labels.h) as the label table.
 ///
 /// Coordinates are rounded to FLOAT32: the Connectome Workbench opens no file of others. A map goes
-/// through `round_to_float` first, whose
-/// certificate then holds for the file. Properties have no place in it.
+/// through `round_to_float` first, whose certificate then holds for the file. Properties have no
+/// place in it.
 /// Throws: WriteError when libgiftiio fails, or where coordinates are beyond the range of
 /// float32; UnmeasurableMesh where all of those that it does not hold are too near. Safe to call
 /// from several threads.
