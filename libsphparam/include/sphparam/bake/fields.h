@@ -45,8 +45,8 @@ std::vector<FieldInfo> all_fields();
 /// The channels that viewers take, as fields: base colour, normal-tangent, orm, emissive.
 const std::vector<std::string>& all_channels();
 
-/// Those of `all_channels` that a mesh has something to say of by its materials or colours; baked on
-/// another mesh, also by its normals.
+/// Those of `all_channels` that a mesh has something to say of by its materials or colours; baked
+/// on another mesh, also by its normals.
 std::vector<std::string> channels_of(const MeshFile& file, bool on_another_mesh = false);
 
 /// "axes", "checker" and "graticule": images that show how the sphere lies on a mesh.
