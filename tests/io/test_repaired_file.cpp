@@ -1,9 +1,13 @@
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "io/attributes/corner_colours.h"
+#include "io/attributes/mixed_colour.h"
 #include "io/polygons/welding.h"
 #include "io/repair/repaired_file.h"
 #include "sphparam/io/fillers.h"
@@ -626,4 +630,24 @@ TEST_CASE("repaired_file: normals turn over with their faces") {
       CHECK((*turned.corner_tangents)(3 * f, 3) == (was_turned ? -1 : 1));
     }
   }
+}
+
+TEST_CASE(
+    "mixed colours: half of black and half of white is half the light, in the channel's type") {
+  const std::array<std::pair<double, double>, 2> bytes{{{0, 0.5}, {255, 0.5}}},
+      reals{{{0, 0.5}, {1, 0.5}}};
+  CHECK(mixed_colour("green", ScalarType::Uint8, bytes) == 188);
+  CHECK(mixed_colour("alpha", ScalarType::Uint8, bytes) == 128);
+  CHECK(mixed_colour("green", ScalarType::Float64, reals) == Approx(0.735357).margin(1e-5));
+}
+
+TEST_CASE("mixed colours: a real number called red that is alone is a number like others") {
+  const auto column = [](const char* name, ScalarType type) { return Property{name, type, {0.5}}; };
+  const Property real = column("red", ScalarType::Float32), byte = column("red", ScalarType::Uint8);
+  const std::vector<Property> three{real, column("green", ScalarType::Float32),
+                                    column("blue", ScalarType::Float32)};
+  CHECK_FALSE(is_of_colour(real, {real}));
+  CHECK(is_of_colour(byte, {byte}));  // never a mean of labels
+  for (const Property& channel : three) CHECK(is_of_colour(channel, three));
+  CHECK_FALSE(is_of_colour(column("height", ScalarType::Float32), three));
 }

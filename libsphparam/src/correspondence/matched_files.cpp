@@ -41,10 +41,9 @@ std::array<std::pair<double, double>, 3> weighed(const TriangleMesh& mesh,
   return corners;
 }
 
-Property carried(const TriangleMesh& mesh, const Property& property,
+Property carried(const TriangleMesh& mesh, const Property& property, bool is_colour,
                  const std::vector<SurfacePoint>& points) {
   Property result{property.name, property.type, {}};
-  const bool is_colour = is_colour_name(property.name);
   if (is_floating(property.type) && !is_colour) {
     result.values = values_at(mesh, property.values, points);
     return result;
@@ -166,9 +165,11 @@ MeshFile with_other_values(const SurfaceMap& map, int threads) {
   MeshFile file = without_correspondence(map.from().file());
   keep_own_values(file, map.to().file());
   const std::vector<SurfacePoint> points = map.forth(threads);
-  for (const Property& property : map.to().file().vertex_properties) {
+  const std::vector<Property>& others = map.to().file().vertex_properties;
+  for (const Property& property : others) {
     if (is_among(not_carried, property.name)) continue;
-    file.set_vertex_property(carried(map.to().mesh(), property, points));
+    file.set_vertex_property(
+        carried(map.to().mesh(), property, is_of_colour(property, others), points));
   }
   if (map.to().file().find_vertex_property("red")) remove_textures(file);
   return file;

@@ -43,8 +43,7 @@ Property rounded(Property property) {
 /// A new vertex gets the colour between its corners, or the label of those which weigh most, never
 /// a mean.
 std::vector<double> carry_mixed(const SphericalChart& chart, const Triangles& source,
-                                const Property& property) {
-  const bool is_colour = is_colour_name(property.name);
+                                const Property& property, bool is_colour) {
   std::vector<double> carried;
   for (const SurfacePoint& point : chart.surface_points) {
     std::array<std::pair<double, double>, 3> corners;
@@ -99,9 +98,10 @@ MeshFile textured_mesh(const ExportChart& exported, const MeshFile& source, Shap
   const bool is_sphere = shape == ShapeKind::Sphere;
   file.mesh.positions = is_sphere ? chart.points : Points(of_vertices(source.mesh.positions));
   carry(source.vertex_properties, file.vertex_properties, [&](const Property& property) {
-    return is_floating(property.type) && !is_colour_name(property.name)
+    const bool is_colour = is_of_colour(property, source.vertex_properties);
+    return is_floating(property.type) && !is_colour
                ? as_list(of_vertices(column_of(property)))
-               : carry_mixed(chart, triangles, property);
+               : carry_mixed(chart, triangles, property, is_colour);
   });
   carry(source.face_properties, file.face_properties, [&](const Property& property) {
     return as_list(carry_face_attribute(chart, triangles, column_of(property)));

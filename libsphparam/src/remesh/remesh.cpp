@@ -128,11 +128,12 @@ class Transfer {
     for (const Property& property : source_.vertex_properties) {
       if (!wanted_.property(property.name)) continue;
       report(options_.progress, "transfer", 0);
-      file.vertex_properties.push_back(
-          {property.name, property.type,
-           is_colour_name(property.name) ? resample_colour(resampling(), property)
-           : is_floating(property.type)  ? resample_property(resampling(), property)
-                                         : resample_labels(resampling(), property)});
+      file.vertex_properties.push_back({property.name, property.type,
+                                        is_of_colour(property, source_.vertex_properties)
+                                            ? resample_colour(resampling(), property)
+                                        : is_floating(property.type)
+                                            ? resample_property(resampling(), property)
+                                            : resample_labels(resampling(), property)});
     }
     renormalise(file);
   }

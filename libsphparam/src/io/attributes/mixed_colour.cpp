@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "io/attributes/appearance.h"
+#include "io/attributes/whole_vector.h"
 #include "srgb_curves.h"
 
 namespace sphparam {
@@ -22,6 +23,11 @@ double in_type(ScalarType type, double value) {
 bool is_colour_name(std::string_view name) {
   static constexpr std::array<std::string_view, 4> names = {"red", "green", "blue", "alpha"};
   return std::ranges::find(names, name) != names.end();
+}
+
+bool is_of_colour(const Property& property, const std::vector<Property>& properties) {
+  return is_colour_name(property.name) &&
+         (!is_floating(property.type) || is_of_whole_vector(property.name, properties));
 }
 
 double mixed_colour(std::string_view channel, ScalarType type,

@@ -20,8 +20,7 @@ constexpr const char* source_vertex = "source_vertex";
 constexpr const char* source_face = "source_face";
 
 /// Whole numbers may be labels: of colours alone there is something between two of them.
-double mean_value(const Property& property, const std::vector<Vertex>& vertices) {
-  const bool is_colour = is_colour_name(property.name);
+double mean_value(const Property& property, bool is_colour, const std::vector<Vertex>& vertices) {
   if (is_floating(property.type) && !is_colour) {
     double sum = 0;
     for (const Vertex v : vertices) sum += property.values[v];
@@ -34,13 +33,13 @@ double mean_value(const Property& property, const std::vector<Vertex>& vertices)
                    : weightiest_label(weighed);
 }
 
-void gather_vertices(Property& property, const RepairedMesh& repaired) {
+void gather_vertices(Property& property, bool is_colour, const RepairedMesh& repaired) {
   std::vector<double> values;
   values.reserve(repaired.vertex_origin.size());
   for (const Vertex v : repaired.vertex_origin) values.push_back(v < 0 ? -1 : property.values[v]);
   for (const CreatedVertex& created : repaired.created) {
     if (property.name != source_vertex) {
-      values[created.vertex] = mean_value(property, created.mean_of);
+      values[created.vertex] = mean_value(property, is_colour, created.mean_of);
     }
   }
   property.values = std::move(values);
@@ -210,7 +209,8 @@ MeshFile repaired_file(const MeshFile& file, const RepairedMesh& repaired) {
       }
     }
   }
-  for (Property& property : result.vertex_properties) gather_vertices(property, repaired);
+  for (Property& property : result.vertex_properties)
+    gather_vertices(property, is_of_colour(property, result.vertex_properties), repaired);
   for (Property& property : result.face_properties) gather_faces(property, repaired);
   gather_corners(result.corner_normals, repaired);
   make_unit(result.corner_normals, repaired);
