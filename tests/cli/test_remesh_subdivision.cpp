@@ -61,7 +61,7 @@ TEST_CASE(
                                Names{"spharm", "-", "--degree", "4"}}) {
       Names arguments = asked;
       const bool expands = asked[0] == "spharm";
-      arguments.insert(arguments.end(), {expands ? "--json" : "-o", folder / "out.obj"});
+      arguments.insert(arguments.end(), {expands ? "--csv" : "-o", folder / "out.obj"});
       const Ended ended = sphparam_program(arguments, obj_text(mesh));
       INFO(asked[0] << ended.err);
       CHECK(ended.code == 4);

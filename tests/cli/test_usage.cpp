@@ -135,7 +135,7 @@ TEST_CASE("program: what a mesh lacks, and what is no word, is told before it is
             "--transfer: no property thicknes to transfer; there are position"},
            {{"match", mesh, mesh, "--features", "sulk,sulk", "-o", folder / "out.ply"},
             3,
-            "sulk: No such file"}}) {
+            "sulk: is no file, and no property of the mesh's vertices, which have none"}}) {
     const Ended ended = sphparam_program(words);
     INFO(words.front() << ": " << ended.err);
     CHECK(ended.code == code);
