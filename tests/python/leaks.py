@@ -20,7 +20,9 @@ from shapes import octahedron, potato, torus
 process = ctypes.CDLL(None)
 sanitized = hasattr(process, "__sanitizer_get_current_allocated_bytes")
 least_calls = 300
-tolerated = 8  # bytes a call: NumPy's names in Python's cache of attributes, which has 4096 places
+# Bytes a call: NumPy's names in Python's cache of attributes, which has 4096 places, and what Embree 3.13 keeps of
+# each thread that made a scene and ended, some 220 for a call that measures.
+tolerated = 16
 
 
 class Mallinfo2(ctypes.Structure):
