@@ -7,6 +7,7 @@
 
 #include "sphparam/errors.h"
 #include "sphparam/measure/surface_distance.h"
+#include "support/cube.h"
 #include "support/test_meshes.h"
 
 namespace sphparam {
@@ -28,16 +29,6 @@ TriangleMesh plane(int n, double height) {
       mesh.triangles.row(f + 1) << v, v + n + 2, v + 1;
     }
   }
-  return mesh;
-}
-
-/// [−1, 1]³
-TriangleMesh cube() {
-  TriangleMesh mesh{Points(8, 3), Triangles(12, 3)};
-  for (int v = 0; v < 8; ++v)
-    mesh.positions.row(v) << (v & 1 ? 1 : -1), (v & 2 ? 1 : -1), (v & 4 ? 1 : -1);
-  mesh.triangles << 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 4, 6,
-      0, 6, 2, 1, 3, 7, 1, 7, 5;
   return mesh;
 }
 
