@@ -3,6 +3,7 @@
 
 #include "sphparam/correspondence/matched_files.h"
 #include "sphparam/io/up_axis.h"
+#include "sphparam/io/vertex_data.h"
 #include "support/test_meshes.h"
 
 namespace sphparam::tests {
@@ -76,6 +77,39 @@ TEST_CASE("matched files: what both have under one name is there of both") {
   }
   CHECK(names == std::vector<std::string>{"I_a", "own", "flow_a_0", "flow_a_1", "x_a_a", "x_a",
                                           "red", "I", "flow_0", "flow_1", "x"});
+}
+
+TEST_CASE("matched files: label tables follow the labels of both surfaces") {
+  const auto with_labels = [](const MappedMesh& mapped, double key, const std::string& name) {
+    MeshFile file = mapped.file();
+    const std::vector<double> keys(static_cast<size_t>(mapped.mesh().vertex_count()), key);
+    attach_data(file, {.name = "lobes",
+                       .kind = DataKind::Labels,
+                       .columns = {{.name = "lobes", .type = ScalarType::Int32, .values = keys}},
+                       .labels = {{static_cast<int>(key), std::nullopt, name}},
+                       .triangles = mapped.mesh().face_count()});
+    return with_file(mapped, std::move(file));
+  };
+  const MappedMesh a = with_labels(ball(2), 3, "frontal lobe"),
+                   b = with_labels(ball(1), 7, "parietal");
+  const MeshFile carried = with_other_values(SurfaceMap(a, b));
+  const std::vector<VertexData> data = attached_data(carried);
+  REQUIRE(data.size() == 2);
+  CHECK(data[0].name == "lobes");
+  CHECK(data[0].properties == std::vector<std::string>{"lobes_a"});
+  CHECK(data[0].columns[0].values == std::vector<double>(162, 3));
+  REQUIRE(data[0].labels.size() == 1);
+  CHECK(data[0].labels[0].key == 3);
+  CHECK(data[0].labels[0].name == "frontal lobe");
+  CHECK(data[0].triangles == 320);
+  CHECK(data[1].name == "lobes_2");
+  CHECK(data[1].kind == DataKind::Labels);
+  CHECK(data[1].properties == std::vector<std::string>{"lobes"});
+  CHECK(data[1].columns[0].values == std::vector<double>(162, 7));
+  REQUIRE(data[1].labels.size() == 1);
+  CHECK(data[1].labels[0].key == 7);
+  CHECK(data[1].labels[0].name == "parietal");
+  CHECK(data[1].triangles == 0);  // which would be those of B
 }
 
 TEST_CASE("matched files: colours are mixed as light") {

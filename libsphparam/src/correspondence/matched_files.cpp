@@ -10,6 +10,7 @@
 #include "io/attributes/other_coordinates.h"
 #include "io/attributes/texture_pages.h"
 #include "io/attributes/weightiest_label.h"
+#include "io/data_comments.h"
 #include "io/match_targets.h"
 #include "sphparam/io/sphere_file.h"
 
@@ -80,12 +81,11 @@ void keep_own_values(MeshFile& file, const MeshFile& other) {
   const auto is_taken = [&](const std::string& name) {
     return file.find_vertex_property(name) || other.find_vertex_property(name);
   };
-  for (Property& own : file.vertex_properties) {
-    if (is_look(own.name) || is_among(not_carried, own.name)) continue;
-    if (!other.find_vertex_property(own.name)) continue;
-    std::string name = own.name;
+  for (const std::string& own : names_of_values(file)) {
+    if (is_look(own) || !other.find_vertex_property(own)) continue;
+    std::string name = own;
     while (is_taken(name)) name = own_name(name);
-    own.name = std::move(name);
+    rename_vertex_property(file, own, name);
   }
 }
 
@@ -171,6 +171,7 @@ MeshFile with_other_values(const SurfaceMap& map, int threads) {
     file.set_vertex_property(
         carried(map.to().mesh(), property, is_of_colour(property, others), points));
   }
+  tell_data_of(file, map.to().file());
   if (map.to().file().find_vertex_property("red")) remove_textures(file);
   return file;
 }

@@ -10,6 +10,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "io/data_comments.h"
 #include "io/formats/gifti/gifti_labels.h"
 #include "io/formats/lossless_type.h"
 #include "number_text.h"
@@ -156,6 +157,12 @@ std::string_view word_of(DataKind kind) {
   return std::ranges::find(kinds, kind, &std::pair<DataKind, std::string_view>::first)->second;
 }
 
+/// What nobody knows is measured.
+DataKind kind_named(std::string_view word) {
+  const auto found = std::ranges::find(kinds, word, &std::pair<DataKind, std::string_view>::second);
+  return found == std::end(kinds) ? DataKind::Metric : found->first;
+}
+
 /// Files of it lie beside one another some day.
 std::string name_of_its_own(const MeshFile& mesh, DataKind kind, const std::string& name) {
   std::set<std::string> names;
@@ -170,11 +177,24 @@ std::string name_of_its_own(const MeshFile& mesh, DataKind kind, const std::stri
   return name + "_" + std::to_string(number);
 }
 
+/// What begins a file among the comments of a mesh, without its head.
+std::string file_line(const MeshFile& mesh, DataKind kind, const std::string& name) {
+  return "file " + std::string(word_of(kind)) + " " + as_word(name_of_its_own(mesh, kind, name));
+}
+
+std::string head_of(int file) { return std::string(prefix) + std::to_string(file) + " "; }
+
+/// The property that a comment says is a column; nothing of other comments.
+std::optional<std::string> column_in(std::string_view comment) {
+  std::optional<Line> line = parse_line(comment);
+  if (!line || line->what != "column") return std::nullopt;
+  return from_word(take_word(line->rest));
+}
+
 /// The comments of a file, but those of its columns.
 void describe(MeshFile& mesh, const VertexData& data, const std::string& head) {
   const auto add = [&](const std::string& line) { mesh.comments.push_back(head + line); };
-  add("file " + std::string(word_of(data.kind)) + " " +
-      as_word(name_of_its_own(mesh, data.kind, data.name)));
+  add(file_line(mesh, data.kind, data.name));
   if (!data.structure.empty()) add("structure " + as_word(data.structure));
   if (data.triangles > 0) add("triangles " + std::to_string(data.triangles));
   for (const auto& [key, value] : data.metadata) add("meta " + as_word(key) + " " + as_word(value));
@@ -208,10 +228,8 @@ class DataBuilder {
 
  private:
   void start(int number, std::string_view rest) {
-    const std::string_view word = take_word(rest);
     VertexData data;
-    for (const auto& [kind, name] : kinds)
-      if (name == word) data.kind = kind;
+    data.kind = kind_named(take_word(rest));
     data.name = from_word(rest);
     data.attached_as = number;
     numbers_.push_back(number);
@@ -244,7 +262,7 @@ class DataBuilder {
 
 std::vector<std::string> attach_data(MeshFile& mesh, const VertexData& data) {
   const FileNumbers numbers(mesh);
-  const std::string head = std::string(prefix) + std::to_string(last_attached(mesh) + 1) + " ";
+  const std::string head = head_of(last_attached(mesh) + 1);
   std::vector<Property> properties;
   for (const DataColumn& column : data.columns)
     properties.push_back(
@@ -305,14 +323,39 @@ int last_attached(const MeshFile& mesh) {
 
 MeshFile without_data(MeshFile mesh) {
   std::vector<std::string> names;
-  for (const std::string& comment : mesh.comments) {
-    std::optional<Line> line = parse_line(comment);
-    if (line && line->what == "column") names.push_back(from_word(take_word(line->rest)));
-  }
+  for (const std::string& comment : mesh.comments)
+    if (std::optional<std::string> name = column_in(comment)) names.push_back(*std::move(name));
   remove_properties(mesh.vertex_properties, names);
   std::erase_if(mesh.comments,
                 [](const std::string& comment) { return parse_line(comment).has_value(); });
   return mesh;
+}
+
+void rename_vertex_property(MeshFile& mesh, const std::string& old, const std::string& name) {
+  for (Property& property : mesh.vertex_properties)
+    if (property.name == old) property.name = name;
+  for (std::string& comment : mesh.comments) {
+    if (column_in(comment) != old) continue;
+    std::string_view rest = parse_line(comment)->rest;
+    take_word(rest);
+    comment =
+        head_of(parse_line(comment)->file) + "column " + as_word(name) + " " + std::string(rest);
+  }
+}
+
+void tell_data_of(MeshFile& mesh, const MeshFile& other) {
+  const int last = last_attached(mesh);
+  for (const std::string& comment : other.comments) {
+    const std::optional<Line> line = parse_line(comment);
+    if (!line || line->what == "triangles") continue;  // those of the other mesh
+    std::string_view rest = line->rest;
+    std::string text = std::string(line->what) + " " + std::string(rest);
+    if (line->what == "file") {
+      const DataKind kind = kind_named(take_word(rest));
+      text = file_line(mesh, kind, from_word(rest));
+    }
+    mesh.comments.push_back(head_of(last + line->file) + text);
+  }
 }
 
 }  // namespace sphparam
