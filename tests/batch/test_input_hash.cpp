@@ -27,6 +27,11 @@ class Inputs {
     return (folder_ / name).string();
   }
 
+  std::string link(const std::string& name, const std::string& target) const {
+    fs::create_symlink(target, folder_ / name);
+    return (folder_ / name).string();
+  }
+
   /// Does the content of the file count for the input, from when it is there?
   bool counts(const std::string& file, const std::string& input) const {
     const InputHash without = hash_of_input(input);
@@ -100,6 +105,22 @@ TEST_CASE("input hash: libraries of OBJ and their images count") {
   in.write("a.mtl", "newmtl m\nmap_Kd -s 1 1 1 maps\\c d.png\nnorm n.png\n");
   CHECK(in.counts("maps/c d.png", path));
   CHECK(in.counts("n.png", path));
+}
+
+TEST_CASE("input hash: of a link what lies beside the file that it leads to counts, too") {
+  const Inputs in;
+  in.write("maps/a.obj", "mtllib a.mtl\nv 0 0 0\n");
+  in.write("maps/a.gltf", R"({"buffers": [{"byteLength": 3, "uri": "a.bin"}]})");
+  const std::string obj = in.link("link.obj", "maps/a.obj"),
+                    gltf = in.link("link.gltf", "maps/a.gltf");
+  CHECK(in.counts("maps/a.mtl", obj));
+  CHECK(in.counts("a.mtl", obj));
+  CHECK(in.counts("maps/a.bin", gltf));
+  in.write("maps/a.mtl", "newmtl m\nmap_Kd c.png\n");
+  CHECK(in.counts("maps/c.png", obj));
+  in.write("a.mtl", "");
+  CHECK(in.counts("maps/c.png", obj));
+  CHECK(hash_of_input(in.link("alone.obj", "a.mtl")).alone);
 }
 
 TEST_CASE("input hash: images that comments of PLY name count") {

@@ -171,6 +171,16 @@ TEST_CASE("obj_materials: names that lead elsewhere mean the file beside the lib
   const MeshFile file = folder.read_with("mtllib lib/b.mtl");
   CHECK(file.base_colours.at(0).path == "lib/red.png");
   CHECK(file.base_colours.at(1).path == "lib/w.png");
+  CHECK(file.base_colours.at(0).problem ==
+        "'C:\\Users\\me\\red.png' leads to another folder, which is not followed: copy it "
+        "beside the file that names it");
+  folder.write("lib/w.jpg", "");
+  folder.write("lib/red.png", "");
+  const MeshFile other = folder.read_with("mtllib lib/b.mtl");
+  CHECK(other.base_colours.at(0).problem.empty());
+  CHECK(other.base_colours.at(1).problem ==
+        "'../../w.png' leads to another folder, which is not followed; there is no file of that "
+        "name; beside it is 'w.jpg'");
 }
 
 TEST_CASE("obj_materials: several libraries, and names with blanks") {

@@ -37,8 +37,8 @@ using Json = nlohmann::json;
 /// What a mesh file names beside it.
 class NamedFiles {
  public:
-  NamedFiles(std::string_view bytes, const std::string& path)
-      : folder_(fs::path(path).parent_path()) {
+  NamedFiles(std::string_view bytes, const std::string& path, fs::path folder)
+      : folder_(std::move(folder)) {
     constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
     if (bytes.starts_with(byte_order_mark)) bytes.remove_prefix(byte_order_mark.size());
     if (looks_like_gltf(bytes)) {
@@ -193,19 +193,18 @@ class NamedFiles {
   std::set<fs::path> there_;
 };
 
-/// Of what a file holds, where that is packed too. Formats that name no files need no unpacking,
-/// and of a PLY its header alone.
-NamedFiles files_named_in(std::string_view bytes, const std::string& path) {
+/// What of a file names others, where it is packed too: nothing of formats that name none, which
+/// need no unpacking, and of a PLY its header alone.
+std::string unpacked(std::string_view bytes, const std::string& path) {
   constexpr std::string_view naming[] = {".gltf", ".glb", ".obj", ".ply", ".dae", ".fbx"};
-  if (!looks_like_gzip(bytes)) return {bytes, path};
-  if (std::ranges::count(naming, inner_extension_of(path)) == 0) return {"", path};
+  if (std::ranges::count(naming, inner_extension_of(path)) == 0) return "";
   constexpr std::size_t longest_header = 1 << 20;
-  if (const std::string begin = beginning_of_gzip(bytes, longest_header); looks_like_ply(begin))
-    return {begin, path};
+  if (std::string begin = beginning_of_gzip(bytes, longest_header); looks_like_ply(begin))
+    return begin;
   try {
-    return {unzip(bytes, path, ReadOptions{}.max_file_bytes).bytes, path};
+    return unzip(bytes, path, ReadOptions{}.max_file_bytes).bytes;
   } catch (const ReadError&) {
-    return {"", path};
+    return "";
   }
 }
 
@@ -220,12 +219,20 @@ std::string hash_of_companion(const fs::path& path) try {
 
 InputHash hash_of_input(const std::string& path) {
   const FileBytes bytes(path, std::numeric_limits<std::uint64_t>::max());
-  const NamedFiles named = files_named_in(bytes.view(), path);
-  std::string hash = content_hash(bytes.view());
-  if (named.there().empty()) return {hash, !named.any()};
-  for (const fs::path& file : named.there())
-    hash += '\n' + file.string() + '\0' + hash_of_companion(named.folder() / file);
-  return {content_hash(hash), false};
+  const bool packed = looks_like_gzip(bytes.view());
+  const std::string text = packed ? unpacked(bytes.view(), path) : "";
+  const std::string_view naming = packed ? text : bytes.view();
+  const NamedFiles named(naming, path, fs::path(path).parent_path());
+  std::string hash = content_hash(bytes.view()), others;
+  const auto add = [&](const NamedFiles& files, const char* mark) {
+    for (const fs::path& file : files.there())
+      others += mark + file.string() + '\0' + hash_of_companion(files.folder() / file);
+  };
+  add(named, "\n");
+  if (const auto target = named.any() ? folder_behind(path) : std::nullopt)
+    add(NamedFiles(naming, path, *target), "\n/");  // no file that is named begins so
+  if (others.empty()) return {hash, !named.any()};
+  return {content_hash(hash + others), false};
 }
 
 }  // namespace sphparam

@@ -11,8 +11,9 @@ struct InputHash {
 };
 
 /// Buffers and images of glTF, libraries of OBJ and their images, images of PLY, COLLADA and FBX
-/// count; what is named and is not there does as soon as it is. Meshes are not read for it. Throws:
-/// ReadError where the file itself cannot be read. Cost: reading all these files once.
+/// count, of a link also those beside the file that it leads to; what is named and is not there
+/// does as soon as it is. Meshes are not read for it. Throws: ReadError where the file itself
+/// cannot be read. Cost: reading all these files once.
 InputHash hash_of_input(const std::string& path);
 
 }  // namespace sphparam

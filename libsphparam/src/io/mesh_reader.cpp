@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "io/attributes/named_file.h"
 #include "io/files/file_bytes.h"
 #include "io/files/gzip.h"
 #include "io/files/text_scanner.h"
@@ -187,16 +188,6 @@ bool lacks_companions(const MeshFile& file) {
   const bool no_library =
       file.format.starts_with("OBJ") && !file.materials.empty() && file.base_colours.empty();
   return no_library || std::ranges::any_of(file.base_colours, is_gone);
-}
-
-/// Of a link the folder of the file that it leads to, where that is another one.
-std::optional<std::filesystem::path> folder_behind(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::is_symlink(path, error)) return std::nullopt;
-  const std::filesystem::path target = std::filesystem::canonical(path, error).parent_path();
-  const std::filesystem::path own = path.parent_path().empty() ? "." : path.parent_path();
-  if (error || std::filesystem::equivalent(own, target, error)) return std::nullopt;
-  return target;
 }
 
 /// Reads by a link: what the file names is beside the link, or else beside the file itself.

@@ -15,13 +15,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The path as a file of its own folder, where that can be said of it at all.
-fs::path path_below(std::string text) {
+std::string with_slashes(std::string text) {
   std::ranges::replace(text, '\\', '/');
+  return text;
+}
+
+/// Out of the folder that it is named in.
+bool leads_elsewhere(const std::string& text) {
   const fs::path path(text);
-  const bool elsewhere = path.is_absolute() || text.find(':') < text.find('/') ||
-                         std::find(path.begin(), path.end(), "..") != path.end();
-  return elsewhere ? path.filename() : path;
+  return path.is_absolute() || text.find(':') < text.find('/') ||
+         std::find(path.begin(), path.end(), "..") != path.end();
+}
+
+/// The path as a file of its own folder, where that can be said of it at all.
+fs::path path_below(const std::string& text) {
+  const fs::path path(with_slashes(text));
+  return leads_elsewhere(path.string()) ? path.filename() : path;
 }
 
 bool is_there(const fs::path& path) {
@@ -64,6 +73,12 @@ std::string problem_beside(const std::vector<std::string>& others) {
                              std::string(words.size() == 1 ? "is " : "are ") + enumerated(words);
 }
 
+/// Of a name that was looked for by its last part, and is not there.
+std::string problem_elsewhere(const std::string& name, const NamedFile& file) {
+  return sphparam::quoted(one_line(name)) + " leads to another folder, which is not followed" +
+         (file.problem.empty() ? ": copy it beside the file that names it" : "; " + file.problem);
+}
+
 /// Folder by folder, each by its name, or else by one that differs in case.
 NamedFile found_on_disk(const fs::path& start, const fs::path& path) {
   fs::path found;
@@ -97,9 +112,22 @@ bool has_quotes(const std::string& text) {
 NamedFile file_below(const fs::path& folder, const fs::path& inside, const std::string& text) {
   const fs::path start = folder / inside;
   const bool unquoted = has_quotes(text) && !is_there(start / path_below(text));
-  const fs::path path = path_below(unquoted ? text.substr(1, text.size() - 2) : text);
+  const std::string name = unquoted ? text.substr(1, text.size() - 2) : text;
+  const fs::path path = path_below(name);
   if (path.empty() || is_there(start / path)) return {path};
-  return found_on_disk(start, path);
+  NamedFile file = found_on_disk(start, path);
+  if (leads_elsewhere(with_slashes(name)) && !is_there(start / file.path))
+    file.problem = problem_elsewhere(name, file);
+  return file;
+}
+
+std::optional<fs::path> folder_behind(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_symlink(path, error)) return std::nullopt;
+  const fs::path target = fs::canonical(path, error).parent_path();
+  const fs::path own = path.parent_path().empty() ? "." : path.parent_path();
+  if (error || fs::equivalent(own, target, error)) return std::nullopt;
+  return target;
 }
 
 void note_taken_names(MeshFile& file, const std::vector<std::string>& taken) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,9 +21,14 @@ struct NamedFile {
 /// drives, `..`) are looked for there by their last part; quotes about the whole name are none of
 /// it where no file is called so. Of a name that no file has, what the disk has in other case is
 /// taken for it if it is one; other files that may be meant (several, or one of another extension)
-/// are named. Files are not opened. Never throws for what is on the disk.
+/// are named, and so is the place of one that leads elsewhere. Files are not opened. Never throws
+/// for what is on the disk.
 NamedFile file_below(const std::filesystem::path& folder, const std::filesystem::path& inside,
                      const std::string& text);
+
+/// Of a link the folder of the file that it leads to, where that is another one: what the file
+/// names is beside the link, or else there.
+std::optional<std::filesystem::path> folder_behind(const std::filesystem::path& path);
 
 /// Tells in one note of the names that were taken so; of none nothing.
 void note_taken_names(MeshFile& file, const std::vector<std::string>& taken);
