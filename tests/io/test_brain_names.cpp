@@ -39,6 +39,7 @@ TEST_CASE("brain_names: names of all three patterns are taken apart") {
         "01|R|aparc|fsaverage|");
   CHECK(parsed("hemi-L_thickness.shape.gii.gz") == "|L|thickness||");
   CHECK(parsed("sub-01_ses-2_hemi-R_white.surf.gii") == "sub-01_ses-2|R|white||");
+  CHECK(parsed("ses-2_hemi-R_white.surf.gii") == "ses-2|R|white||");
   CHECK(parsed("bert/surf/lh.white") == "bert|L|white||");
   CHECK(parsed("bert/label/rh.aparc.a2009s.annot") == "bert|R|aparc.a2009s||");
   CHECK(parsed("here/lh.curv") == "|L|curv||");
@@ -61,8 +62,11 @@ TEST_CASE("brain_names: names are made by each pattern") {
   CHECK(bids("sub-07/surf/lh.white") == "sub-07_hemi-L_white.surf.gii");
   CHECK(bids("sub-07_ses-1/surf/rh.pial") == "sub-07_ses-1_hemi-R_pial.surf.gii");
   CHECK(bids("sub-07_ses-1_hemi-L_pial.surf.gii") == "sub-07_ses-1_hemi-L_pial.surf.gii");
+  CHECK(bids("ses-1_hemi-L_pial.surf.gii") == "ses-1_hemi-L_pial.surf.gii");
   CHECK(surface_name(parse_brain_name("sub-07/surf/lh.white"), NamePattern::Hcp) ==
         "sub-07.L.white.surf.gii");
+  CHECK(surface_name(parse_brain_name("ses-1_hemi-L_pial.surf.gii"), NamePattern::Hcp) ==
+        "ses-1.L.pial.surf.gii");
   const BrainName aparc{"1", 'R', "aparc", "", ""};
   CHECK(data_name(aparc, labels(), NamePattern::Hcp) == "1.R.aparc.label.gii");
   CHECK(data_name(aparc, labels(), NamePattern::Bids) == "sub-1_hemi-R_desc-aparc_dseg.label.gii");

@@ -8,6 +8,7 @@
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/io/sphere_file.h"
+#include "sphparam/io/vertex_data.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -44,8 +45,9 @@ TEST_CASE("freesurfer: a surface is read with its making and its volume, and wri
   CHECK(file.mesh.triangles == tetrahedron().triangles);
   CHECK(file.position_type == ScalarType::Float32);
   CHECK(file.notes.empty());
-  CHECK(file.comments.size() == 10);
+  CHECK(file.comments.size() == 11);
   CHECK(file.comments.at(9) == "freesurfer geometry cras   = 0.5 -1.25 3.0");
+  CHECK(file.comments.at(10) == "gifti AnatomicalStructurePrimary CortexLeft");
   CHECK(serialise_freesurfer(file) == bytes);
 }
 
@@ -54,6 +56,17 @@ TEST_CASE("freesurfer: what is said of a surface goes through other formats and 
   const MeshFile file = read(bytes, "lh.white");
   for (const char* name : {"a.ply", "a.vtk", "a.vtp", "a.obj"})
     CHECK(serialise_freesurfer(read(serialise_mesh(name, file), name)) == bytes);
+}
+
+TEST_CASE("freesurfer: the side that a name says goes along where other names do not say it") {
+  const std::string bytes = as_written_by_freesurfer("");
+  const auto in_gifti = [](const MeshFile& file) {
+    const MeshFile ply = read(serialise_mesh("sub01.sph.ply", file), "sub01.sph.ply");
+    return structure_of(read(serialise_mesh("a.surf.gii", ply), "a.surf.gii"), "a.surf.gii");
+  };
+  CHECK(in_gifti(read(bytes, "rh.white")) == "CortexRight");
+  CHECK(in_gifti(read(bytes, "bert/surf/lh.pial")) == "CortexLeft");
+  CHECK(in_gifti(read(bytes, "white")).empty());
 }
 
 TEST_CASE("freesurfer: the volume geometry is metadata in GIFTI, and comes back as it was") {

@@ -85,7 +85,8 @@ BrainName parse_bids(const std::string& stem) {
     if (key == "den") name.density = value;
     if (key == "desc") description = value;
   }
-  if (!session.empty()) name.subject = "sub-" + name.subject + "_ses-" + session;
+  if (!session.empty())
+    name.subject = (name.subject.empty() ? "" : "sub-" + name.subject + "_") + "ses-" + session;
   const bool says_little = name.what == "dseg" || name.what == "probseg" || name.what.empty();
   if (says_little && !description.empty()) name.what = description;
   return name;
@@ -136,9 +137,10 @@ std::string hcp_stem(const BrainName& name) {
   return stem + (name.space.empty() ? "" : "." + name.space);
 }
 
-/// Folders of FreeSurfer subjects may be named so: "sub-07", "sub-07_ses-1".
+/// Folders of FreeSurfer subjects may be named so: "sub-07", "sub-07_ses-1"; "ses-1" is of nobody.
 BrainSession session_of(std::string subject) {
-  constexpr std::string_view sub = "sub-", ses = "_ses-";
+  constexpr std::string_view sub = "sub-", ses = "_ses-", alone = "ses-";
+  if (subject.starts_with(alone)) return {"", subject.substr(alone.size())};
   if (!subject.starts_with(sub)) return {std::move(subject), ""};
   subject.erase(0, sub.size());
   const std::size_t at = subject.find(ses);

@@ -6,6 +6,7 @@
 #include "io/files/byte_reader.h"
 #include "io/formats/freesurfer_comments.h"
 #include "io/formats/indexed_triangles.h"
+#include "sphparam/io/brain_names.h"
 #include "sphparam/io/losses.h"
 
 // The layout is that of FreeSurfer's own reader: two line ends close the line at the top, the
@@ -40,6 +41,7 @@ class FreeSurferReader {
     file_.position_type = ScalarType::Float32;
     file_.mesh.triangles = read_triangles32(reader_, faces, vertices, options_);
     read_footer();
+    note_side();
     return std::move(file_);
   }
 
@@ -78,6 +80,12 @@ class FreeSurferReader {
     if (reader_.remaining() > 0)
       add_loss(file_.notes, std::to_string(reader_.remaining()) +
                                 " bytes after the volume geometry (how the file was made)");
+  }
+
+  /// Which hemisphere it is the name alone says, and other formats have other names.
+  void note_side() {
+    if (const std::string side = structure_of_name(name_); !side.empty())
+      file_.comments.push_back("gifti AnatomicalStructurePrimary " + side);
   }
 
   bool next_tag_is(std::int32_t tag) const {

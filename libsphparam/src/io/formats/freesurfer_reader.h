@@ -16,7 +16,8 @@ bool looks_like_freesurfer(std::string_view bytes);
 ///
 /// Coordinates are taken as written. The line becomes a comment "freesurfer created …", the volume
 /// geometry of the footer comments "freesurfer geometry LINE", useRealRAS "freesurfer real_ras N":
-/// `serialise_freesurfer` writes them back. What follows the geometry (command lines) is told as
+/// `serialise_freesurfer` writes them back. The hemisphere, of which the name alone tells, is one
+/// as GIFTI has it. What follows the geometry (command lines) is told as
 /// not carried.
 /// Refused by name: quadrangle surfaces and files of values (curv, thickness), FF FF FD and FF FF
 /// FF. Throws: ReadError with the byte. Cost: near a copy of the bytes.
