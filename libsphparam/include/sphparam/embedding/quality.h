@@ -16,7 +16,7 @@ enum class Quality {
 enum class Balance {
   Lambda,     // as energy.lambda says
   Conformal,  // angles: the λ at which areas weigh next to nothing of what the angles still miss
-  EqualArea,  // areas within `area_error`, then angles: the least λ of 4, 16, … that does it
+  EqualArea,  // areas within `area_error`, then angles: the least λ of 4, 16, …, else of 4, 8, …
 };
 
 }  // namespace sphparam
