@@ -1,5 +1,6 @@
 #include "sphparam/names.h"
 
+#include "mesh/repair/repair_kinds.h"
 #include "number_text.h"
 
 namespace sphparam {
@@ -100,51 +101,7 @@ std::string name_of(DefectKind kind) {
   return "";
 }
 
-std::string name_of(RepairKind kind) {
-  switch (kind) {
-    case RepairKind::NonFiniteFaceRemoved:
-      return "non-finite-face-removed";
-    case RepairKind::NonFiniteVertexDropped:
-      return "non-finite-vertex-dropped";
-    case RepairKind::VertexWelded:
-      return "vertex-welded";
-    case RepairKind::EdgeSplitAtVertex:
-      return "edge-split-at-vertex";
-    case RepairKind::InvalidFaceRemoved:
-      return "invalid-face-removed";
-    case RepairKind::DuplicateFaceRemoved:
-      return "duplicate-face-removed";
-    case RepairKind::FaceTurned:
-      return "face-turned";
-    case RepairKind::EdgeSplit:
-      return "edge-split";
-    case RepairKind::DiagonalTurned:
-      return "diagonal-turned";
-    case RepairKind::EdgeMidpointAdded:
-      return "edge-midpoint-added";
-    case RepairKind::VertexSplit:
-      return "vertex-split";
-    case RepairKind::ComponentDropped:
-      return "component-dropped";
-    case RepairKind::HoleFilled:
-      return "hole-filled";
-    case RepairKind::HoleKept:
-      return "hole-kept";
-    case RepairKind::HandleCut:
-      return "handle-cut";
-    case RepairKind::HandleFilled:
-      return "handle-filled";
-    case RepairKind::TurnedOutward:
-      return "turned-outward";
-    case RepairKind::FlatFaceTurned:
-      return "flat-face-turned";
-    case RepairKind::FlatFaceCollapsed:
-      return "flat-face-collapsed";
-    case RepairKind::UnusedVertexDropped:
-      return "unused-vertex-dropped";
-  }
-  return "";
-}
+std::string name_of(RepairKind kind) { return info_of(kind).name; }
 
 std::string name_of(HandleChoice choice) {
   switch (choice) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "mesh/repair/repair_kinds.h"
 #include "number_text.h"
 #include "place_text.h"
 
@@ -18,9 +19,7 @@ std::string defect_list(const std::vector<MeshDefect>& defects) {
 }
 
 std::string kept_line(const KeptParts& parts, const std::vector<RepairAction>& actions) {
-  long unmeasured = 0;
-  for (const RepairAction& action : actions)
-    if (action.kind == RepairKind::NonFiniteFaceRemoved) unmeasured += action.count;
+  const long unmeasured = count_of(actions, RepairKind::NonFiniteFaceRemoved);
   if (parts.refused || (parts.count == 0 && unmeasured == 0)) return "";
   const std::string kept = "kept " + percent(parts.area_share, 5) + " of the area and " +
                            percent(parts.face_share, 5) + " of the faces, lost " +

@@ -46,10 +46,10 @@ RepairPlace place_of(DefectKind kind) {
   return RepairPlace::Vertices;
 }
 
-std::string place_list(RepairPlace place, const std::vector<int>& elements, long count) {
-  if (elements.empty()) return {};
+std::string place_list(const PlaceWords& words, RepairPlace place, const std::vector<int>& elements,
+                       long count) {
   const long ids = ids_of(place);
-  std::string named;
+  std::string list;
   long unnamed = 0;
   for (auto at = elements.begin(); at != elements.end(); at += ids) {
     const int first = *at, second = *(at + ids - 1);
@@ -57,14 +57,17 @@ std::string place_list(RepairPlace place, const std::vector<int>& elements, long
       ++unnamed;
       continue;
     }
-    named += (named.empty() ? "" : ", ") + std::to_string(first);
-    if (ids == 2) named.append("-").append(std::to_string(second));
+    list += (list.empty() ? ": " + std::string(words.noun) + " " : ", ") + std::to_string(first);
+    if (ids == 2) list.append("-").append(std::to_string(second));
   }
-  std::string list = named.empty() ? ": " : ": " + std::string(noun_of(place)) + " " + named;
   if (unnamed > 0)
-    list +=
-        (named.empty() ? "" : " and ") + std::to_string(unnamed) + " that the file does not have";
+    list += (list.empty() ? ": " : " and ") + std::to_string(unnamed) + " " + words.unnamed;
   return list + (std::ssize(elements) / ids < count ? ", …" : "");
+}
+
+std::string place_list(RepairPlace place, const std::vector<int>& elements, long count) {
+  if (elements.empty()) return {};
+  return place_list({noun_of(place), "that the file does not have"}, place, elements, count);
 }
 
 MeshDefect renumbered(MeshDefect defect, const std::function<long(Vertex)>& vertex,
