@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "baselines/tangent_basis.h"
+#include "sphere/face_rays.h"
 #include "sphere/solid_angle.h"
 #include "sphparam/parallel.h"
-#include "sphparam/sphere/orientation.h"
 
 // Unknowns: x_i + B_i d_i, back to the sphere; B_i two unit vectors of the tangent plane. With J
 // the derivatives of the areas Ω, the step solves
@@ -44,10 +44,8 @@ double EqualAreas::area_term(const SphereMap& map) const {
     double sum = 0;
     for (Face f = static_cast<Face>(first); f < last; ++f) {
       const double target = 4 * std::numbers::pi * shares_[static_cast<size_t>(f)];
-      const double error =
-          solid_angle(map.point(topology_.vertex(f, 0)), map.point(topology_.vertex(f, 1)),
-                      map.point(topology_.vertex(f, 2))) -
-          target;
+      const auto [a, b, c] = face_rays(topology_, map, f);
+      const double error = solid_angle(a, b, c) - target;
       sum += error * error / target;
     }
     return sum;
@@ -75,10 +73,7 @@ std::vector<char> EqualAreas::negative_angles(const SphereMap& map) const {
   std::vector<char> negative(shares_.size(), 0);
   const auto of_chunk = [&](std::int64_t first, std::int64_t last) {
     for (Face f = static_cast<Face>(first); f < last; ++f) {
-      const int sign =
-          orientation(map.point(topology_.vertex(f, 0)), map.point(topology_.vertex(f, 1)),
-                      map.point(topology_.vertex(f, 2)));
-      negative[static_cast<size_t>(f)] = sign <= 0;
+      negative[static_cast<size_t>(f)] = face_orientation(topology_, map, f) <= 0;
     }
   };
   parallel_for(topology_.face_count(), grain, threads_, of_chunk);

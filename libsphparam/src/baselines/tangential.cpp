@@ -15,9 +15,9 @@
 #include "elementary.h"
 #include "mesh/triangle_geometry.h"
 #include "option_domain.h"
+#include "sphere/face_rays.h"
 #include "sphparam/mesh/edge_weights.h"
 #include "sphparam/parallel.h"
-#include "sphparam/sphere/orientation.h"
 
 // x_i ← x_i + (I − x_i x_iᵀ) 𝓛(x_i), 𝓛(x_i) = Σ_j w_ij x_j / Σ_j w_ij − x_i; x_i ← x_i / |x_i|,
 // vertex after vertex, but for the anchors.
@@ -83,8 +83,7 @@ long count_folds(const Topology& topology, const SphereMap& map, int threads) {
   const auto of_chunk = [&](std::int64_t first, std::int64_t last) {
     long folds = 0;
     for (Face f = static_cast<Face>(first); f < last; ++f) {
-      folds += orientation(map.point(topology.vertex(f, 0)), map.point(topology.vertex(f, 1)),
-                           map.point(topology.vertex(f, 2))) <= 0;
+      folds += face_orientation(topology, map, f) <= 0;
     }
     return double(folds);
   };

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "baselines/tangent_basis.h"
+#include "sphere/face_rays.h"
 
 // F_i = B_iᵀ Σ_j w_ij (x_j − x_i), B_i two unit vectors of the tangent plane. F is minus the
 // gradient of the Dirichlet energy, so its Jacobian is minus the Hessian H, which is symmetric:
@@ -56,10 +57,8 @@ TutteEquations::TutteEquations(const Topology& topology, const std::vector<doubl
 std::vector<double> TutteEquations::image_areas(const SphereMap& map) const {
   std::vector<double> areas(static_cast<size_t>(topology_.vertex_count()), 0);
   for (Face f = 0; f < topology_.face_count(); ++f) {
-    const Vector3 p = map.point(topology_.vertex(f, 0));
-    const Vector3 a = map.point(topology_.vertex(f, 1)) - p;
-    const Vector3 b = map.point(topology_.vertex(f, 2)) - p;
-    const double third = a.cross(b).norm() / 6;
+    const auto [a, b, c] = face_rays(topology_, map, f);
+    const double third = (b - a).cross(c - a).norm() / 6;
     for (int k = 0; k < 3; ++k) areas[static_cast<size_t>(topology_.vertex(f, k))] += third;
   }
   return areas;

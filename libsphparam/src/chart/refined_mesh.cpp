@@ -16,9 +16,8 @@ constexpr std::int64_t chunk_size = 16384;
 
 RefinedMesh::RefinedMesh(const Topology& topology, const SphereMap& map, const Triangles& source,
                          int threads)
-    : source_(source),
-      origin_(static_cast<size_t>(topology.halfedge_count())),
-      twin_(origin_.size()),
+    : HalfedgeLinks(topology.halfedge_count()),
+      source_(source),
       source_faces_(static_cast<size_t>(topology.face_count())),
       points_(static_cast<size_t>(topology.vertex_count())),
       surface_points_(points_.size()),
@@ -27,10 +26,7 @@ RefinedMesh::RefinedMesh(const Topology& topology, const SphereMap& map, const T
                [&](std::int64_t first, std::int64_t last) {
                  for (auto f = static_cast<Face>(first); f < static_cast<Face>(last); ++f) {
                    source_faces_[static_cast<size_t>(f)] = f;
-                   for (Halfedge h = 3 * f; h < 3 * f + 3; ++h) {
-                     origin_[static_cast<size_t>(h)] = topology.origin(h);
-                     twin_[static_cast<size_t>(h)] = topology.twin(h);
-                   }
+                   for (Halfedge h = 3 * f; h < 3 * f + 3; ++h) link_as(topology, h);
                  }
                });
   parallel_for(topology.vertex_count(), chunk_size, threads,
@@ -76,8 +72,8 @@ Vertex RefinedMesh::split_edge(Halfedge h, double t, const Vector3& point) {
   const Halfedge pa = add_face(p, a, d, source_faces_[static_cast<size_t>(Topology::face(g))]);
   join(pb + 1, twin(bc));
   join(pa + 1, twin(ad));
-  origin_[static_cast<size_t>(bc)] = p;
-  origin_[static_cast<size_t>(ad)] = p;
+  set_origin(bc, p);
+  set_origin(ad, p);
   join(bc, pb + 2);
   join(ad, pa + 2);
   join(h, pa);
@@ -93,7 +89,7 @@ Vertex RefinedMesh::split_face(Face f, const Vector3& weights, const Vector3& po
   const Halfedge second = add_face(b, c, p, source), third = add_face(c, a, p, source);
   join(second, twin(bc));
   join(third, twin(ca));
-  origin_[static_cast<size_t>(ca)] = p;
+  set_origin(ca, p);
   join(bc, second + 2);
   join(second + 1, third + 2);
   join(third + 1, ca);
@@ -123,11 +119,6 @@ Halfedge RefinedMesh::add_face(Vertex a, Vertex b, Vertex c, Face source) {
   twin_.insert(twin_.end(), 3, -1);
   source_faces_.push_back(source);
   return 3 * (face_count() - 1);
-}
-
-void RefinedMesh::join(Halfedge h, Halfedge other) {
-  twin_[static_cast<size_t>(h)] = other;
-  twin_[static_cast<size_t>(other)] = h;
 }
 
 }  // namespace sphparam

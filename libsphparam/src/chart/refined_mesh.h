@@ -3,26 +3,21 @@
 #include <span>
 #include <vector>
 
+#include "chart/halfedge_links.h"
 #include "sphparam/mesh/surface_point.h"
-#include "sphparam/mesh/topology.h"
 #include "sphparam/sphere/sphere_map.h"
 
 namespace sphparam {
 
 /// A closed triangle mesh on the sphere that can be split, and that knows where its vertices lie in
-/// the mesh it came from. Half-edges as in `Topology`; splitting keeps everything else in place.
-class RefinedMesh {
+/// the mesh it came from. Splitting keeps everything else in place.
+class RefinedMesh : public HalfedgeLinks {
  public:
   RefinedMesh(const Topology& topology, const SphereMap& map, const Triangles& source, int threads);
 
   int vertex_count() const { return static_cast<int>(points_.size()); }
   int face_count() const { return static_cast<int>(source_faces_.size()); }
-  Halfedge twin(Halfedge h) const { return twin_[static_cast<size_t>(h)]; }
-  Vertex origin(Halfedge h) const { return origin_[static_cast<size_t>(h)]; }
-  Vertex target(Halfedge h) const { return origin(Topology::next(h)); }
-  Vertex apex(Halfedge h) const { return origin(Topology::previous(h)); }
   Vertex vertex(Face f, int corner) const { return origin(3 * f + corner); }
-  Halfedge rotate_ccw(Halfedge h) const { return twin(Topology::previous(h)); }
   const Vector3& point(Vertex v) const { return points_[static_cast<size_t>(v)]; }
   std::span<const Vector3> rays() const { return points_; }
   Points points() const;
@@ -48,11 +43,8 @@ class RefinedMesh {
  private:
   Vertex add_vertex(Face f, const Vector3& corner_weights, const Vector3& point);
   Halfedge add_face(Vertex a, Vertex b, Vertex c, Face source);
-  void join(Halfedge h, Halfedge other);
 
   const Triangles& source_;
-  std::vector<Vertex> origin_;
-  std::vector<Halfedge> twin_;
   std::vector<Face> source_faces_;
   std::vector<Vector3> points_;
   std::vector<SurfacePoint> surface_points_;

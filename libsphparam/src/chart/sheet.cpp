@@ -19,8 +19,7 @@ constexpr int most_spokes = 512;
 }  // namespace
 
 Sheet::Sheet(const SphericalChart& chart, int threads)
-    : origin_(static_cast<size_t>(chart.triangles.size())),
-      twin_(origin_.size()),
+    : HalfedgeLinks(static_cast<int>(chart.triangles.size())),
       outgoing_(static_cast<size_t>(chart.points.rows())),
       places_(outgoing_.size()),
       in_west_(static_cast<size_t>(chart.triangles.rows()), 0),
@@ -32,8 +31,7 @@ Sheet::Sheet(const SphericalChart& chart, int threads)
   const Topology topology(chart.triangles, vertex_count(), threads);
   for (Halfedge h = 0; h < topology.halfedge_count(); ++h) {
     const auto v = static_cast<size_t>(topology.origin(h));
-    origin_[static_cast<size_t>(h)] = topology.origin(h);
-    twin_[static_cast<size_t>(h)] = topology.twin(h);
+    link_as(topology, h);
     outgoing_[v] = h;
     const auto uv = chart.uv.row(chart.wedges(Topology::face(h), Topology::corner(h)));
     if (is_pole(topology.origin(h))) continue;
@@ -188,11 +186,6 @@ bool Sheet::may_take_out(Halfedge h) {
          !has_three_spokes(Topology::previous(h)) && !has_three_spokes(Topology::previous(twin(h)));
 }
 
-void Sheet::join(Halfedge h, Halfedge other) {
-  twin_[static_cast<size_t>(h)] = other;
-  twin_[static_cast<size_t>(other)] = h;
-}
-
 void Sheet::take_out(Halfedge h) {
   const Vertex v = origin(h), to = target(h);
   const bool joins_seam = on_seam(to) && !on_seam(v);
@@ -205,7 +198,7 @@ void Sheet::take_out(Halfedge h) {
     if (joins_seam) west(spoke) = side;
     spoke = rotate_ccw(spoke);
   } while (spoke != h);
-  for (const Halfedge s : taken.spokes) origin_[static_cast<size_t>(s)] = to;
+  for (const Halfedge s : taken.spokes) set_origin(s, to);
   for (const Halfedge gone : {h, twin(h)}) {
     const Halfedge next = twin(Topology::next(gone)), previous = twin(Topology::previous(gone));
     join(next, previous);
@@ -221,7 +214,7 @@ Halfedge Sheet::put_back() {
   taken_.pop_back();
   const Halfedge h = taken.halfedge;
   for (size_t i = 0; i < taken.spokes.size(); ++i) {
-    origin_[static_cast<size_t>(taken.spokes[i])] = taken.vertex;
+    set_origin(taken.spokes[i], taken.vertex);
     west(taken.spokes[i]) = taken.in_west[i];
   }
   for (const Halfedge side : {h, twin(h)}) {

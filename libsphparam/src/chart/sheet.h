@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "chart/halfedge_links.h"
 #include "sphparam/chart/spherical_chart.h"
 
 namespace sphparam {
@@ -24,7 +25,7 @@ inline double square(const SheetPoint& a) { return a.x * a.x + a.y * a.y; }
 ///
 /// A vertex on the seam has y = 0 for faces in the east, y = `cells` for those in the west. A face
 /// with a corner at ±z is the trapezoid over its link edge. Lengths are up to rounding.
-class Sheet {
+class Sheet : public HalfedgeLinks {
  public:
   static constexpr double cells = 0x1p24;  // a turn of u, and of v
 
@@ -33,12 +34,7 @@ class Sheet {
 
   int vertex_count() const { return static_cast<int>(places_.size()); }
   int face_count() const { return static_cast<int>(in_west_.size()); }
-  Halfedge twin(Halfedge h) const { return twin_[static_cast<size_t>(h)]; }
-  Vertex origin(Halfedge h) const { return origin_[static_cast<size_t>(h)]; }
-  Vertex target(Halfedge h) const { return origin(Topology::next(h)); }
-  Vertex apex(Halfedge h) const { return origin(Topology::previous(h)); }
   Halfedge outgoing(Vertex v) const { return outgoing_[static_cast<size_t>(v)]; }
-  Halfedge rotate_ccw(Halfedge h) const { return twin(Topology::previous(h)); }
   bool is_pole(Vertex v) const { return v == north_ || v == south_; }
   bool on_seam(Vertex v) const { return on_seam_[static_cast<size_t>(v)] != 0; }
   /// Has a face vanished with a vertex taken out?
@@ -93,14 +89,12 @@ class Sheet {
   double depth(Halfedge pole, Halfedge h) const;  // of a trapezoid, at the origin of h
   double width(Halfedge pole) const;
   std::array<SheetPoint, 3> trapezoid_gradient(Halfedge pole) const;
-  void join(Halfedge h, Halfedge other);
   void mark_neighbours(Vertex v);
   bool has_two_common_neighbours(Halfedge h);
   bool seam_allows(Halfedge h);
   bool has_three_spokes(Halfedge h) const;
 
-  std::vector<Vertex> origin_;
-  std::vector<Halfedge> twin_, outgoing_;
+  std::vector<Halfedge> outgoing_;
   std::vector<SheetPoint> places_;
   std::vector<char> in_west_, is_out_;  // of faces
   std::vector<char> on_seam_;           // of vertices

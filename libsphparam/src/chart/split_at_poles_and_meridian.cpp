@@ -7,8 +7,8 @@
 
 #include "chart/longitude.h"
 #include "elementary.h"
+#include "mesh/faces_where.h"
 #include "sphere/difference_of_products.h"
-#include "sphparam/parallel.h"
 #include "sphparam/sphere/orientation.h"
 
 // All happens among the faces that touch the circle y = 0, about √#F of them. First vertices are
@@ -18,8 +18,6 @@
 
 namespace sphparam {
 namespace {
-
-constexpr std::int64_t chunk_size = 8192;
 
 // Radians. Doubles near 1 are 2⁻⁵³ apart: closer than a few hundred of these to a line, (u, v) does
 // not hold the shape of a triangle.
@@ -180,20 +178,12 @@ class PolarSplitting {
 }  // namespace
 
 std::vector<Face> faces_around_meridian(const RefinedMesh& mesh, int threads) {
-  const Face faces = mesh.face_count();
-  std::vector<std::vector<Face>> found(static_cast<size_t>((faces + chunk_size - 1) / chunk_size));
-  parallel_for(faces, chunk_size, threads, [&](std::int64_t first, std::int64_t last) {
-    for (auto f = static_cast<Face>(first); f < static_cast<Face>(last); ++f) {
-      const double y0 = mesh.point(mesh.vertex(f, 0)).y(), y1 = mesh.point(mesh.vertex(f, 1)).y(),
-                   y2 = mesh.point(mesh.vertex(f, 2)).y();
-      const double lowest = std::min({y0, y1, y2}), highest = std::max({y0, y1, y2});
-      if (lowest <= snapping_angle && highest >= -snapping_angle)
-        found[static_cast<size_t>(first / chunk_size)].push_back(f);
-    }
+  return faces_where(mesh.face_count(), threads, [&](Face f) {
+    const double y0 = mesh.point(mesh.vertex(f, 0)).y(), y1 = mesh.point(mesh.vertex(f, 1)).y(),
+                 y2 = mesh.point(mesh.vertex(f, 2)).y();
+    const double lowest = std::min({y0, y1, y2}), highest = std::max({y0, y1, y2});
+    return lowest <= snapping_angle && highest >= -snapping_angle;
   });
-  std::vector<Face> all;
-  for (const std::vector<Face>& chunk : found) all.insert(all.end(), chunk.begin(), chunk.end());
-  return all;
 }
 
 bool holds(const RefinedMesh& mesh, Face f, const Vector3& ray) {

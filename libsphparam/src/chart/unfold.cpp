@@ -10,7 +10,7 @@
 
 #include "chart/nudge.h"
 #include "elementary.h"
-#include "sphparam/parallel.h"
+#include "mesh/faces_where.h"
 
 // A triangle that is positive on the sphere folds in (u, v) because the chords of its edges are not
 // the images of its edges. Its edges run monotonely in u; so, if the edge that spans its u is split
@@ -26,7 +26,6 @@
 namespace sphparam {
 namespace {
 
-constexpr std::int64_t chunk_size = 8192;
 // Of what an edge spans in u, at either end: a line there would leave the long piece as it is.
 constexpr double margin = 0x1p-3;
 constexpr double least_depth = 0x1p-20;  // of a turn: a fold that textures show
@@ -115,17 +114,8 @@ class Unfolder {
   }
 
   std::vector<Face> folded_faces(int threads) const {
-    const Face faces = flat_.mesh.face_count();
-    std::vector<std::vector<Face>> found(
-        static_cast<size_t>((faces + chunk_size - 1) / chunk_size));
-    parallel_for(faces, chunk_size, threads, [&](std::int64_t first, std::int64_t last) {
-      for (auto f = static_cast<Face>(first); f < static_cast<Face>(last); ++f) {
-        if (!flat_.positive(f)) found[static_cast<size_t>(first / chunk_size)].push_back(f);
-      }
-    });
-    std::vector<Face> all;
-    for (const auto& chunk : found) all.insert(all.end(), chunk.begin(), chunk.end());
-    return all;
+    return faces_where(flat_.mesh.face_count(), threads,
+                       [&](Face f) { return !flat_.positive(f); });
   }
 
   /// Where to split a folded face; no half-edge if that cannot help.

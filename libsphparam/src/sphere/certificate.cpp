@@ -6,10 +6,10 @@
 #include <numbers>
 
 #include "elementary.h"
+#include "sphere/face_rays.h"
 #include "sphere/required_rays.h"
 #include "sphere/solid_angle.h"
 #include "sphparam/parallel.h"
-#include "sphparam/sphere/orientation.h"
 
 // Theorem. Let K be a closed oriented triangle mesh (every directed edge once, its opposite once:
 // what Topology guarantees), x_v a ray for each vertex, and f the map that sends the point
@@ -121,9 +121,7 @@ FaceFindings examine_faces(const Topology& topology, const SphereMap& map, bool 
   // stableNormalized: rays may be tiny or huge, and this is only the cross-check.
   const auto ray = [&](const Vector3& x) { return unit ? x : Vector3(x.stableNormalized()); };
   for (Face f = first; f < last; ++f) {
-    const Vector3 a = map.point(topology.vertex(f, 0));
-    const Vector3 b = map.point(topology.vertex(f, 1));
-    const Vector3 c = map.point(topology.vertex(f, 2));
+    const auto [a, b, c] = face_rays(topology, map, f);
     const int sign = orientation(a, b, c);
     if (sign < 0) findings.folded.push_back(f);
     if (sign == 0) findings.degenerate.push_back(f);
@@ -191,8 +189,8 @@ std::array<Vector3, 64> generic_rays() {
 RayCount count_cones(const Topology& topology, const SphereMap& map, const Vector3& ray) {
   RayCount count;
   for (Face f = 0; f < topology.face_count(); ++f) {
-    count.add(map.point(topology.vertex(f, 0)), map.point(topology.vertex(f, 1)),
-              map.point(topology.vertex(f, 2)), ray);
+    const auto [a, b, c] = face_rays(topology, map, f);
+    count.add(a, b, c, ray);
   }
   return count;
 }

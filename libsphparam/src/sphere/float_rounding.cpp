@@ -6,10 +6,11 @@
 #include <limits>
 #include <utility>
 
+#include "mesh/faces_where.h"
 #include "mesh/rings.h"
 #include "option_domain.h"
+#include "sphere/face_rays.h"
 #include "sphere/required_rays.h"
-#include "sphparam/parallel.h"
 #include "sphparam/sphere/orientation.h"
 
 // Rounding moves a ray of length r by at most δ = √3·ulp(r)/2, which for r = 1 is √3·2⁻²⁵: its
@@ -29,7 +30,6 @@ constexpr int first_rings = 4;
 constexpr int most_rounds = 6;  // so at most 128 rings around a fold
 constexpr int sweeps = 16;      // a round, forth and back
 constexpr int halvings = 4;
-constexpr std::int64_t grain = 8192;
 
 // Volatile, as GCC 12 drops double → float → double when it vectorises neighbouring coordinates.
 double to_float(double x) {
@@ -56,18 +56,8 @@ double stepped(double x, int ulps) {
 }
 
 std::vector<Face> bad_faces(const Topology& topology, const SphereMap& map, int threads) {
-  const Face faces = topology.face_count();
-  std::vector<std::vector<Face>> chunks(static_cast<std::size_t>((faces + grain - 1) / grain));
-  parallel_for(faces, grain, threads, [&](std::int64_t first, std::int64_t last) {
-    for (auto f = static_cast<Face>(first); f < static_cast<Face>(last); ++f) {
-      if (orientation(map.point(topology.vertex(f, 0)), map.point(topology.vertex(f, 1)),
-                      map.point(topology.vertex(f, 2))) <= 0)
-        chunks[static_cast<std::size_t>(first / grain)].push_back(f);
-    }
-  });
-  std::vector<Face> bad;
-  for (const std::vector<Face>& chunk : chunks) bad.insert(bad.end(), chunk.begin(), chunk.end());
-  return bad;
+  return faces_where(topology.face_count(), threads,
+                     [&](Face f) { return face_orientation(topology, map, f) <= 0; });
 }
 
 /// True when all triangles at v are positive with v at x.

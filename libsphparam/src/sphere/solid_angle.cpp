@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "sphere/difference_of_products.h"
+#include "sphere/face_rays.h"
 #include "sphparam/sphere/orientation.h"
 
 namespace sphparam {
@@ -38,9 +39,8 @@ double sure_solid_angle(const Vector3& a, const Vector3& b, const Vector3& c) {
 VectorX vertex_solid_angles(const Topology& topology, const SphereMap& map) {
   VectorX shares = VectorX::Zero(topology.vertex_count());
   for (Face f = 0; f < topology.face_count(); ++f) {
-    const double angle =
-        sure_solid_angle(map.point(topology.vertex(f, 0)), map.point(topology.vertex(f, 1)),
-                         map.point(topology.vertex(f, 2)));
+    const auto [a, b, c] = face_rays(topology, map, f);
+    const double angle = sure_solid_angle(a, b, c);
     for (int k = 0; k < 3; ++k) shares[topology.vertex(f, k)] += angle / 3;
   }
   return shares;

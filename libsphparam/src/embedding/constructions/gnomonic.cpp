@@ -7,6 +7,7 @@
 #include "elementary.h"
 #include "mesh/laplace_system.h"
 #include "option_domain.h"
+#include "sphere/face_rays.h"
 #include "sphparam/mesh/edge_weights.h"
 #include "sphparam/sphere/certificate.h"
 
@@ -154,9 +155,8 @@ void reweight(std::vector<double>& kappa, const Topology& topology, const RestTr
               const SphereMap& map) {
   double greatest = 0;
   for (Face f = 0; f < topology.face_count(); ++f) {
-    const ImageTriangle x{map.point(topology.vertex(f, 0)), map.point(topology.vertex(f, 1)),
-                          map.point(topology.vertex(f, 2))};
-    const double ratio = std::abs(distortion(source[static_cast<size_t>(f)], x).s);
+    const double ratio =
+        std::abs(distortion(source[static_cast<size_t>(f)], face_rays(topology, map, f)).s);
     double& k = kappa[static_cast<size_t>(f)];
     k *= std::sqrt(std::max(ratio, least_area_ratio));
     greatest = std::max(greatest, k);

@@ -2,8 +2,8 @@
 
 #include <atomic>
 
+#include "sphere/face_rays.h"
 #include "sphparam/parallel.h"
-#include "sphparam/sphere/orientation.h"
 
 namespace sphparam {
 namespace {
@@ -11,8 +11,7 @@ namespace {
 constexpr std::int64_t grain = 8192;
 
 bool is_positive(const Topology& topology, const SphereMap& map, Face f) {
-  return orientation(map.point(topology.vertex(f, 0)), map.point(topology.vertex(f, 1)),
-                     map.point(topology.vertex(f, 2))) > 0;
+  return face_orientation(topology, map, f) > 0;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "sphere/face_rays.h"
 #include "sphparam/parallel.h"
 
 // Let a = x1 − x0, b = x2 − x0 be the image edges, l, h and t the source's base, height and foot.
@@ -146,9 +147,7 @@ double distortion_energy(const Topology& topology, const RestTriangles& source,
     double sum = 0;
     for (Face f = static_cast<Face>(first); f < static_cast<Face>(last); ++f) {
       const RestTriangle& triangle = source[static_cast<size_t>(f)];
-      const auto [d, s] =
-          distortion(triangle, {map.point(topology.vertex(f, 0)), map.point(topology.vertex(f, 1)),
-                                map.point(topology.vertex(f, 2))});
+      const auto [d, s] = distortion(triangle, face_rays(topology, map, f));
       sum += triangle.area * energy_density(energy, d, s);
     }
     return sum;

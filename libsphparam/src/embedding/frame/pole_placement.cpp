@@ -8,7 +8,9 @@
 #include "embedding/constructions/orientations.h"
 #include "embedding/energy/energy_domain.h"
 #include "embedding/sweeps/relaxation.h"
+#include "mesh/faces_around.h"
 #include "mesh/rings.h"
+#include "sphere/face_rays.h"
 #include "sphparam/parallel.h"
 
 // Stereographic projection from north = +z: w = (x + iy)/(1 − z), −z at the origin, and back
@@ -94,18 +96,10 @@ SphereMap translated(const SphereMap& map, Vertex north, const Eigen::Vector2d& 
 /// The energy of the triangles at some vertices.
 double energy_around(const Topology& topology, const RestTriangles& source, const SphereMap& map,
                      const std::vector<Vertex>& vertices, const DistortionEnergy& energy) {
-  std::vector<Face> faces;
-  for (const Vertex v : vertices) {
-    topology.for_each_outgoing(v, [&](Halfedge h) { faces.push_back(Topology::face(h)); });
-  }
-  std::ranges::sort(faces);
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
   double sum = 0;
-  for (const Face f : faces) {
+  for (const Face f : faces_around(topology, vertices)) {
     const RestTriangle& triangle = source[at(f)];
-    const auto [d, s] =
-        distortion(triangle, {map.point(topology.vertex(f, 0)), map.point(topology.vertex(f, 1)),
-                              map.point(topology.vertex(f, 2))});
+    const auto [d, s] = distortion(triangle, face_rays(topology, map, f));
     sum += triangle.area * energy_density(energy, d, s);
   }
   return sum;

@@ -10,6 +10,7 @@
 
 #include "elementary.h"
 #include "embedding/constructions/orientations.h"
+#include "sphere/face_rays.h"
 #include "sphere/solid_angle.h"
 
 // (JᵀJ + μK) δ = −Jᵀr in tangent coordinates: r = √A ln(Ω/A) of each triangle, and δᵀKδ the squared
@@ -73,18 +74,13 @@ class EvenAreas {
     double error = 0;                                          // mean |log2 Ω/A|
   };
 
-  Corners corners(const SphereMap& map, Face f) const {
-    return {map.point(topology_.vertex(f, 0)), map.point(topology_.vertex(f, 1)),
-            map.point(topology_.vertex(f, 2))};
-  }
-
   /// Of a map that folds: infinite.
   State state_of(const SphereMap& map) const {
     if (!all_triangles_positive(topology_, map, options_.threads)) return {};
     State state{0, 0};
     double area = 0, covered = 0;
     for (Face f = 0; f < topology_.face_count(); ++f) {
-      const Corners x = corners(map, f);
+      const Corners x = face_rays(topology_, map, f);
       const double a = source_[static_cast<size_t>(f)].area;
       const double omega = solid_angle(x[0], x[1], x[2]);
       const double ratio = elementary::log(omega / a);
@@ -154,7 +150,7 @@ class EvenAreas {
   /// One triangle's part: lower triangles of both matrices, and the slope.
   void add(Face f, std::vector<Eigen::Triplet<double>>& squares,
            std::vector<Eigen::Triplet<double>>& strain) {
-    const Corners x = corners(map_, f);
+    const Corners x = face_rays(topology_, map_, f);
     const double a = source_[static_cast<size_t>(f)].area;
     const double omega = solid_angle(x[0], x[1], x[2]);
     const Corners gradients = half_gradients(x);

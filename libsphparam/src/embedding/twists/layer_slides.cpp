@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <ranges>
 #include <utility>
 
 #include "embedding/energy/packed_triangles.h"
 #include "embedding/twists/strip.h"
+#include "mesh/faces_around.h"
 
 // 1. Layers slide where as many vertices are in each: the images of a layer are then the same
 //    polygon as before, and the strip between two layers knows only how far one slides from the
@@ -84,15 +86,8 @@ class Slider {
 
   /// With a corner in a layer. Their corners are vertices.
   PackedTriangles triangles_at(const std::vector<VertexLoop>& layers) const {
-    std::vector<Face> faces;
-    for (const VertexLoop& layer : layers) {
-      for (const Vertex v : layer)
-        topology_.for_each_outgoing(v, [&](Halfedge h) { faces.push_back(Topology::face(h)); });
-    }
-    std::ranges::sort(faces);
-    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
     PackedTriangles triangles;
-    for (const Face f : faces)
+    for (const Face f : faces_around(topology_, std::views::join(layers)))
       triangles.add(source_[at(f)],
                     {topology_.vertex(f, 0), topology_.vertex(f, 1), topology_.vertex(f, 2)});
     return triangles;
