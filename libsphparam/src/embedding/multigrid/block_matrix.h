@@ -38,30 +38,27 @@ struct BlockMatrix {
   int rows() const { return static_cast<int>(start.size()) - 1; }
 };
 
-/// r += a b, W columns at a time; each entry's terms in order, whatever W.
-template <int W, int N, int K, int M>
-SPHPARAM_INLINE void add_product(const Block<N, K>& a, const Block<K, M>& b, Block<N, M>& r) {
-  static_assert(M % W == 0);
-  for (int i = 0; i < N; ++i) {
-    for (int j = 0; j < M; j += W) {
-      Lanes<W> sum = load<W>(&r.a[at(i * M + j)]);
-      for (int k = 0; k < K; ++k)
-        sum += Lanes<W>(a.a[at(i * K + k)]) * load<W>(&b.a[at(k * M + j)]);
-      store(sum, &r.a[at(i * M + j)]);
-    }
-  }
+/// aᵀ, as a left factor: nothing is moved.
+template <int N, int M>
+struct Transposed {
+  const Block<N, M>& of;
+  double operator()(int i, int j) const { return of(j, i); }
+};
+
+template <int N, int M>
+Transposed<N, M> transposed(const Block<N, M>& a) {
+  return {a};
 }
 
-/// r += aᵀ b, likewise.
-template <int W, int N, int K, int M>
-SPHPARAM_INLINE void add_transposed_product(const Block<K, N>& a, const Block<K, M>& b,
-                                            Block<N, M>& r) {
+/// r += a b, a block or a transposed one times a block, W columns at a time; each entry's terms in
+/// order, whatever W.
+template <int W, class Left, int N, int K, int M>
+SPHPARAM_INLINE void add_product(const Left& a, const Block<K, M>& b, Block<N, M>& r) {
   static_assert(M % W == 0);
   for (int i = 0; i < N; ++i) {
     for (int j = 0; j < M; j += W) {
       Lanes<W> sum = load<W>(&r.a[at(i * M + j)]);
-      for (int k = 0; k < K; ++k)
-        sum += Lanes<W>(a.a[at(k * N + i)]) * load<W>(&b.a[at(k * M + j)]);
+      for (int k = 0; k < K; ++k) sum += Lanes<W>(a(i, k)) * load<W>(&b.a[at(k * M + j)]);
       store(sum, &r.a[at(i * M + j)]);
     }
   }
@@ -106,26 +103,27 @@ template <int N>
   return s;
 }
 
-/// r = b − A x
-template <int N>
-void residual(const BlockMatrix<N>& a, const double* b, const double* x, double* r, int threads) {
+/// visit(i, (A x)_i) for every unknown.
+template <int N, class Visit>
+void for_each_product(const BlockMatrix<N>& a, const double* x, int threads, const Visit& visit) {
   parallel_for(a.rows(), row_grain, threads, [&](std::int64_t begin, std::int64_t end) {
     for (int row = static_cast<int>(begin); row < static_cast<int>(end); ++row) {
       const std::array<double, N> s = product(a, x, row);
-      for (int i = 0; i < N; ++i) r[N * row + i] = b[N * row + i] - s[at(i)];
+      for (int i = 0; i < N; ++i) visit(N * row + i, s[at(i)]);
     }
   });
+}
+
+/// r = b − A x
+template <int N>
+void residual(const BlockMatrix<N>& a, const double* b, const double* x, double* r, int threads) {
+  for_each_product(a, x, threads, [&](int i, double ax) { r[i] = b[i] - ax; });
 }
 
 /// y = A x
 template <int N>
 void multiply(const BlockMatrix<N>& a, const double* x, double* y, int threads) {
-  parallel_for(a.rows(), row_grain, threads, [&](std::int64_t begin, std::int64_t end) {
-    for (int row = static_cast<int>(begin); row < static_cast<int>(end); ++row) {
-      const std::array<double, N> s = product(a, x, row);
-      for (int i = 0; i < N; ++i) y[N * row + i] = s[at(i)];
-    }
-  });
+  for_each_product(a, x, threads, [&](int i, double ax) { y[i] = ax; });
 }
 
 }  // namespace sphparam

@@ -67,9 +67,9 @@ SPHPARAM_INLINE void restrict_row(const BlockMatrix<N>& fine, const std::vector<
       }
       Block<N, M> ap;
       add_product<W>(fine.off[at(e)], p[at(column)], ap);
-      add_transposed_product<W>(p[at(row)], ap, off[place]);
+      add_product<W>(transposed(p[at(row)]), ap, off[place]);
     }
-    add_transposed_product<W>(p[at(row)], within, diagonal);
+    add_product<W>(transposed(p[at(row)]), within, diagonal);
   }
   coarse.diagonal[at(c)] = diagonal;
 }
