@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "elementary.h"
+#include "embedding/frame/pinned_points.h"
 #include "number_text.h"
 
 // A map without pins is the mesh on the sphere up to a rotation R. True pins p lie near R x,
@@ -39,12 +40,7 @@ std::string degrees(double sum, size_t pins) {
 
 std::optional<std::string> suspicion_of_mirror(const SphereMap& map, const std::vector<Pin>& pins) {
   if (pins.size() < 3) return std::nullopt;
-  Points from(std::ssize(pins), 3), to(std::ssize(pins), 3);
-  for (Eigen::Index i = 0; i < from.rows(); ++i) {
-    const Pin& pin = pins[static_cast<size_t>(i)];
-    from.row(i) = map.points.row(pin.vertex);
-    to.row(i) = pin.point.transpose();
-  }
+  const auto [from, to] = pinned_points(map, pins);
   // −R is a reflection: the best one comes from the best rotation to the opposite points.
   const double rotated = sum_of_squares(from, to, best_rotation(from, to));
   const double mirrored = sum_of_squares(from, to, -best_rotation(from, Points(-to)));

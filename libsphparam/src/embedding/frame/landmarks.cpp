@@ -2,9 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
 #include <unordered_map>
 
@@ -13,6 +11,7 @@
 #include "embedding/energy/energy_domain.h"
 #include "embedding/frame/nearest_rotation.h"
 #include "embedding/frame/pin_domain.h"
+#include "embedding/frame/pinned_points.h"
 #include "embedding/sweeps/relaxation.h"
 #include "mesh/triangle_geometry.h"
 #include "sphparam/parallel.h"
@@ -252,13 +251,8 @@ bool all_exact(const std::vector<double>& residuals) {
 }
 
 Eigen::Matrix3d best_rotation(const SphereMap& map, const std::vector<Pin>& pins) {
-  Points from(std::ssize(pins), 3), to(std::ssize(pins), 3);
-  for (Eigen::Index i = 0; i < from.rows(); ++i) {
-    const Pin& pin = pins[static_cast<size_t>(i)];
-    from.row(i) = map.points.row(pin.vertex);
-    to.row(i) = pin.point;
-  }
-  return best_rotation(from, to);
+  const PinnedPoints points = pinned_points(map, pins);
+  return best_rotation(points.from, points.to);
 }
 
 Eigen::Matrix3d best_rotation(const Points& from, const Points& to) {
