@@ -274,6 +274,23 @@ void for_each_function(int group, Eigen::Index functions, const Visit& visit) {
   }
 }
 
+/// A group's functions at the points of a block, by weight.
+Rows rows_of(const Functions& values, const VectorX& weights, int group, std::int64_t first,
+             int count) {
+  Rows rows{};
+  for_each_function(group, values.cols(), [&](size_t row, Eigen::Index k) {
+    for (int i = 0; i < count; ++i)
+      rows[row][size_t(i)] = weights[first + i] * values(first + i, k);
+  });
+  return rows;
+}
+
+void write_rows(const Rows& rows, int group, std::int64_t first, int count, Functions& values) {
+  for_each_function(group, values.cols(), [&](size_t row, Eigen::Index k) {
+    for (int i = 0; i < count; ++i) values(first + i, k) = rows[row][size_t(i)];
+  });
+}
+
 /// Node i of n of Gauss–Legendre quadrature on [−1, 1], from 1 downwards, and its weight.
 std::pair<double, double> gauss_legendre(int i, int n) {
   double x = elementary::cos(std::numbers::pi * (i + 0.75) / (n + 0.5)), slope = 1;
@@ -305,9 +322,7 @@ Functions synthesise(const Functions& coefficients, const Points& directions, in
                    for (int group = 0; group < terms.groups(); ++group) {
                      load(directions, first, count, waves);
                      synthesise_block(legendre, terms, group, waves, rows);
-                     for_each_function(group, values.cols(), [&](size_t row, Eigen::Index k) {
-                       for (int i = 0; i < count; ++i) values(first + i, k) = rows[row][size_t(i)];
-                     });
+                     write_rows(rows, group, first, count, values);
                    }
                  });
                });
@@ -330,12 +345,7 @@ Functions analyse(int degree, const Points& directions, const VectorX& weights,
     Waves waves;
     for_each_block(begin, end, [&](std::int64_t first, int count) {
       for (int group = 0; group < terms.groups(); ++group) {
-        Rows rows{};
-        for_each_function(group, values.cols(), [&](size_t row, Eigen::Index k) {
-          for (int i = 0; i < count; ++i) {
-            rows[row][size_t(i)] = weights[first + i] * values(first + i, k);
-          }
-        });
+        const Rows rows = rows_of(values, weights, group, first, count);
         load(directions, first, count, waves);
         analyse_block(legendre, rows, group, waves, terms);
       }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <utility>
 
@@ -301,6 +300,21 @@ LinearSolution GlobalNewton::direction(const DistortionEnergy& energy, double le
   return solution;
 }
 
+void GlobalNewton::lengthen(const DistortionEnergy& energy, const Unknowns& direction, double most,
+                            double& length, double& after, Image& candidate) const {
+  while (2 * length <= most) {
+    ask_();
+    move(direction, 2 * length, candidate);
+    const double further = blocks_.energy(candidate, energy, threads_);
+    if (!(further < after)) {
+      move(direction, length, candidate);  // again: cheaper than room for both
+      return;
+    }
+    after = further;
+    length *= 2;
+  }
+}
+
 GlobalNewton::Step GlobalNewton::step(const DistortionEnergy& energy, double least_share,
                                       Curvature curvature) {
   const double before = this->energy(energy);
@@ -318,17 +332,8 @@ GlobalNewton::Step GlobalNewton::step(const DistortionEnergy& energy, double lea
     move(solution.x, length, candidate);
     double after = blocks_.energy(candidate, energy, threads_);
     if (!(after < before + sufficient_decrease * length * slope)) continue;
-    while (may_grow && 2 * length <= std::min(cap, most_expansion) && (i == 0 || length >= 1)) {
-      ask_();
-      move(solution.x, 2 * length, candidate);
-      const double further = blocks_.energy(candidate, energy, threads_);
-      if (!(further < after)) {
-        move(solution.x, length, candidate);  // again: cheaper than room for both
-        break;
-      }
-      after = further;
-      length *= 2;
-    }
+    if (may_grow && (i == 0 || length >= 1))
+      lengthen(energy, solution.x, std::min(cap, most_expansion), length, after, candidate);
     ask_();
     if (blocks_.covering(candidate, threads_) > once) {
       may_grow = false;

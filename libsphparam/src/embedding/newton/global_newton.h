@@ -85,6 +85,9 @@ class GlobalNewton {
   std::vector<Vector3> motion(const Unknowns& direction) const;
   RingPacks pack_rings_of_all() const;
   void move(const Unknowns& direction, double length, Image& image) const;
+  /// Doubles a step, up to `most`, while that lowers the energy that it comes to.
+  void lengthen(const DistortionEnergy& energy, const Unknowns& direction, double most,
+                double& length, double& after, Image& candidate) const;
   double longest(const Unknowns& direction) const;
 
   int threads_;
