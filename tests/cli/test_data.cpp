@@ -283,12 +283,20 @@ TEST_CASE("data: a sphere off the origin is told wherever one is taken") {
                                "--sphere-b", off, "-o", out})
                  .err,
              Contains("warning: " + told));
+  CHECK_THAT(sphparam_program({"render", brain.white, "--sphere", off, "--size", "16", "-o",
+                               brain.mapped.folder / "o.png"})
+                 .err,
+             Contains("warning: " + told));
+  CHECK_THAT(sphparam_program({"map", brain.white, "--align", off, "-o", out}).err,
+             Contains("warning: " + told));
   const Ended like = sphparam_program(
       {"remesh", brain.white, "--sphere", brain.sphere, "--grid", "like:" + off, "-o", out});
   CHECK_THAT(like.err, Contains("warning: " + told));
   CHECK_THAT(sphparam_program({"remesh", brain.white, "--sphere", brain.sphere, "--grid",
                                "like:" + brain.sphere, "-o", out})
                  .err,
+             !Contains("about the origin"));
+  CHECK_THAT(sphparam_program({"map", brain.white, "--align", brain.sphere, "-o", out}).err,
              !Contains("about the origin"));
 }
 

@@ -20,6 +20,7 @@
 #include "sphparam/io/pin_file.h"
 #include "sphparam/io/planetocentric.h"
 #include "sphparam/io/upright_frame.h"
+#include "sphparam/io/verify_map.h"
 #include "sphparam/io/written_map.h"
 #include "sphparam/sphere/radial_directions.h"
 
@@ -71,14 +72,16 @@ void settle_vertices(const std::string& pins, const MeshSource& source,
 
 /// The directions that the map takes or is turned to.
 void settle_directions(const MapArguments& arguments, const MeshSource& source,
-                       ParameterizeOptions& options) try {
+                       ParameterizeOptions& options, Session& session) try {
   const bool to_body = arguments.align == "body";
   if (to_body || options.method == Method::Radial) {
     SphereMap directions = body_directions(source.file, options.centre);
     if (to_body) options.align_to = std::move(directions);
   } else if (!arguments.align.empty()) {
-    options.align_to =
-        unit_rays(read_map_of(source, arguments.align, input_limits(), "map to align to").map);
+    SphereMap map = read_map_of(source, arguments.align, input_limits(), "map to align to").map;
+    if (const std::string warning = roundness_warning(map); !warning.empty())
+      session.warn({display_name(arguments.align) + ": " + warning});
+    options.align_to = unit_rays(std::move(map));
   }
 } catch (const VertexAtCentre& error) {
   const long number = FileNumbers(source.file).number(error.vertex());
@@ -165,7 +168,7 @@ MapOutcome compute(MeshSource source, const MapArguments& arguments, Session& se
   options.fillers = fillers_of(outcome.source.file);
   settle_vertices(arguments.pins, outcome.source, options, session.console);
   settle_upright(arguments, outcome);
-  settle_directions(arguments, outcome.source, options);
+  settle_directions(arguments, outcome.source, options, session);
   MethodRun made = run(arguments, outcome);
   outcome.result = std::move(made.result);
   outcome.account = std::move(made.account);

@@ -144,6 +144,7 @@ int run_render(RenderArguments& arguments) {
   Session session(arguments);
   session.console.progress("picture", 0);
   DrawnMesh mesh = read_drawn(arguments, session);
+  if (!mesh.warning.empty()) session.warn({mesh.warning});
   crease(mesh.file, arguments.input, arguments.crease, session);
   session.files.add(arguments.output, drawn(mesh, arguments, session));
   session.publish();

@@ -23,6 +23,7 @@
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/upright_frame.h"
+#include "sphparam/io/verify_map.h"
 #include "sphparam/io/written_map.h"
 #include "sphparam/sphere/distortion.h"
 #include "texture/source_texture.h"
@@ -78,7 +79,7 @@ Camera framed(const Points& points, const Vector3& from, const Vector3& up) {
 
 /// Of a sphere with any radius.
 SphereMap directions_of(const MeshSource& source, const std::string& sphere,
-                        const ReadOptions& options) {
+                        const ReadOptions& options, std::string& warning) {
   WrittenMap written = read_map_of(source, sphere, options);
   for (Eigen::Index v = 0; v < written.map.points.rows(); ++v) {
     if (!written.map.points.row(v).isZero(0)) continue;
@@ -86,6 +87,8 @@ SphereMap directions_of(const MeshSource& source, const std::string& sphere,
     throw ReadError(display_name(sphere),
                     "vertex " + std::to_string(number) + " is at the centre, in no direction");
   }
+  warning = roundness_warning(written.map);
+  if (!warning.empty()) warning = display_name(sphere) + ": " + warning;
   return unit_rays(std::move(written.map));
 }
 
@@ -242,7 +245,8 @@ DrawnMesh drawn_mesh(MeshSource source, const std::string& sphere, const ReadOpt
   if (source.file.mesh.face_count() == 0)
     throw ReadError(display_name(source.path), "there are no triangles to draw");
   DrawnMesh drawn;
-  drawn.map = sphere.empty() ? read_sphere(source.file) : directions_of(source, sphere, options);
+  drawn.map = sphere.empty() ? read_sphere(source.file)
+                             : directions_of(source, sphere, options, drawn.warning);
   drawn.file = std::move(source.file);
   drawn.file.mesh = at_drawing_size(std::move(drawn.file.mesh));
   return drawn;

@@ -17,6 +17,7 @@ namespace sphparam {
 struct DrawnMesh {
   MeshFile file;
   std::optional<SphereMap> map;
+  std::string warning = {};  // of a sphere that is named: `roundness_warning`, with its name
 };
 
 /// Reads a mesh as its file has its vertices, with the map that it carries; where a sphere is
