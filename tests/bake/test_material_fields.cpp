@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "bake/field_registry.h"
+#include "bake/fields/base_colour.h"
 #include "bake/fields/material_fields.h"
 #include "bake/fields/normal_fields.h"
 #include "image/image_codec.h"
@@ -11,6 +12,7 @@
 #include "sphparam/chart/tangent_frame.h"
 #include "srgb_curves.h"
 #include "support/test_meshes.h"
+#include "texture/read_textures.h"
 #include "texture/texture_pyramid.h"
 
 using namespace sphparam;
@@ -95,6 +97,25 @@ Vector3 as_vector(const std::vector<float>& values) {
 }
 
 }  // namespace
+
+TEST_CASE("material fields: seams are looked for once for all fields, and where images want them") {
+  Cube cube;
+  const auto bare = cube.scene();
+  const auto unused = bare->source.coordinates->of(bare->source.file(), false, true);
+  const long known = unused.use_count();
+  const SurfaceField numbers = make_orm(*bare, "");
+  CHECK(unused.use_count() == known);
+  cube.file.channels[1].roughness = texel("r.png", {1, 1, 1});
+  cube.file.channels[1].emission = texel("e.png", {1, 1, 1});
+  cube.file.base_colours[0] = texel("c.png", {1, 1, 1});
+  const auto scene = cube.scene();
+  scene->source.textures = read_textures(scene->source.file(), 1);
+  const auto seams = scene->source.coordinates->of(scene->source.file(), false, true);
+  CHECK(seams->seams.size() == 12);
+  const std::array fields = {make_orm(*scene, ""), make_emissive(*scene, ""),
+                             make_base_colour(*scene, "")};
+  CHECK(seams.use_count() == known + 3);
+}
 
 TEST_CASE("material fields: the constants of two materials are baked as they are") {
   Cube cube;

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <numbers>
 
+#include "bake/connected_faces.h"
 #include "bake/field_registry.h"
 #include "bake/projected_surface.h"
 #include "scenes.h"
@@ -118,6 +119,23 @@ TEST_CASE("projected surface: of two layers the nearer that faces the same way i
       on_sphere(both(turned_inside_out(scaled(icosphere(3), 1.02)), scaled(icosphere(3), 0.95)));
   for (const float height : baked(*scene, "height")) CHECK(height == Approx(-0.05).margin(5e-3));
   CHECK(shares_of(*scene).back == 0);
+}
+
+TEST_CASE("projected surface: its parts, which hang together by places, are told apart") {
+  const auto scene =
+      on_sphere(both(turned_inside_out(scaled(icosphere(3), 1.02)), scaled(icosphere(3), 0.95)));
+  for (const float part : baked(*scene, "id:component")) CHECK(part == 1);
+  TriangleMesh apart = both(icosphere(1), scaled(icosphere(0), 0.5)).mesh;  // 80 and 20 triangles
+  Points corners(3 * apart.face_count(), 3);
+  for (Face f = 0; f < apart.face_count(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      corners.row(3 * f + k) = apart.positions.row(apart.triangles(f, k));
+      apart.triangles(f, k) = 3 * f + k;
+    }
+  apart.positions = corners;
+  std::vector<int> expected(80, 0);
+  expected.resize(100, 1);
+  CHECK(parts_of_faces(apart) == expected);
 }
 
 TEST_CASE("projected surface: what is seen from behind is told, its normals turned round") {

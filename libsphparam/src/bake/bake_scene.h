@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bake/source_coordinates.h"
 #include "sphparam/bake/fields.h"
 #include "sphparam/chart/spherical_chart.h"
 #include "sphparam/io/mapped_mesh.h"
@@ -23,6 +24,7 @@ struct BakeSource {
   std::vector<SourceTexture> textures;
   bool one_texture_for_all = false;  // whatever the materials; else faces without one are white
   std::shared_ptr<const ProjectedSurface> surface = nullptr;
+  std::shared_ptr<SourceCoordinates> coordinates = std::make_shared<SourceCoordinates>();
 
   const MeshFile& file() const;
   const TriangleMesh& mesh() const { return file().mesh; }

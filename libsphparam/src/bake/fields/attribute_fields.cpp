@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 
+#include "bake/connected_faces.h"
 #include "bake/fields/far_values.h"
 #include "bake/fields/linear_field.h"
 #include "io/attributes/source_attributes.h"
@@ -315,6 +316,8 @@ SurfaceField make_id(const BakeScene& scene, const std::string& what) {
     labels = materials_of(file);
   } else if (chosen != "component") {
     throw FieldError("id:" + chosen + ": there are id:face, id:material and id:component");
+  } else if (!scene.source.mapped) {
+    labels = parts_of_faces(file.mesh);
   }
   return owner_field(scene, "id:" + chosen, std::move(labels));
 }

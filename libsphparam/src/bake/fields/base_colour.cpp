@@ -25,7 +25,7 @@ constexpr int most_layers = 16;           // behind one another
 struct Painter {
   std::vector<SourceTexture> textures;
   std::vector<int> texture_of;  // a face; −1: white; empty: the first texture for all
-  SeamedTexcoords corners;
+  SourceCoordinates::Coordinates texcoords;  // null: no image needs them
   TextureFilter filter;
   std::vector<bool> is_opaque;           // a texture: its alpha means nothing; empty: none is
   std::optional<CornerLight> colours;    // of the vertices, that multiply the texture
@@ -34,6 +34,11 @@ struct Painter {
   float cutoff = 0.5F;                   // of Mask, for all: alphas are scaled to it
   double close_behind = 0;               // how far what is masked out shows it; 0: a hole is one
   std::shared_ptr<const WhatIsBehind> behind;  // what blended faces are drawn over; none: nothing
+
+  const SeamedTexcoords& corners() const {
+    static const SeamedTexcoords none;
+    return texcoords ? *texcoords : none;
+  }
 
   const SourceTexture& texture(Face f) const {
     static const SourceTexture white;
@@ -54,7 +59,7 @@ struct Painter {
  private:
   void paint(const SurfaceRun& run, int channels, float* values) const {
     const SourceTexture& its = texture(run.face);
-    sample_texture(its, filter, texture_line(run, corners, its.placement), values, channels);
+    sample_texture(its, filter, texture_line(run, corners(), its.placement), values, channels);
     if (channels == 4 && opaque(run.face)) set_opaque(run.count, values);
     if (channels == 4 && !opaque(run.face)) fade(run, values);
     if (colours) tint(run, channels, values);
@@ -69,7 +74,7 @@ struct Painter {
   std::array<float, 4> seen(const SurfaceRun& place) const {
     std::array<float, 4> colour{};
     const SourceTexture& its = texture(place.face);
-    sample_texture(its, filter, texture_line(place, corners, its.placement), colour.data());
+    sample_texture(its, filter, texture_line(place, corners(), its.placement), colour.data());
     fade(place, colour.data());
     if (colours) tint(place, 4, colour.data());
     const AlphaMode means = mode(place.face);
@@ -132,7 +137,7 @@ struct Painter {
     if (texture < 0 || !opacities[static_cast<size_t>(texture)].image) return;
     const SourceTexture& opacity = opacities[static_cast<size_t>(texture)];
     std::vector<float> texels(4 * static_cast<size_t>(run.count));
-    sample_texture(opacity, filter, texture_line(run, corners, opacity.placement), texels.data());
+    sample_texture(opacity, filter, texture_line(run, corners(), opacity.placement), texels.data());
     for (int i = 0; i < run.count; ++i) values[4 * i + 3] *= texels[4 * static_cast<size_t>(i)];
   }
 
@@ -191,14 +196,19 @@ const Property* material_of(const BakeSource& source) {
   return source.one_texture_for_all ? nullptr : source.file().find_face_property("material");
 }
 
+void look_up(const BakeSource& source, const std::vector<SourceTexture>& textures,
+             Painter& painter) {
+  if (any_image(textures))
+    painter.texcoords = source.coordinates->of(source.file(), false, !source.one_texture_for_all);
+}
+
 void place_textures(const BakeScene& scene, Painter& painter) {
   const MeshFile& file = scene.source.file();
   painter.textures = scene.source.textures;
   painter.filter = scene.options.filter;
   painter.triangles = &file.mesh.triangles;
-  if (auto corners = texcoords_of(file)) {
-    painter.corners = seamed(file.mesh.triangles, std::move(*corners), material_of(scene.source));
-  } else if (any_image(painter.textures)) {
+  look_up(scene.source, painter.textures, painter);
+  if (any_image(painter.textures) && !has_texcoords(file)) {
     const bool own = !scene.source.one_texture_for_all;
     throw FieldError(
         std::string("basecolor: the mesh has no texture coordinates, so its texture has no place") +
@@ -229,6 +239,7 @@ void set_alpha(const BakeScene& scene, Painter& painter) {
     painter.behind = std::make_shared<const WhatIsBehind>(scene);
   painter.opacities =
       TextureReader(file, TexelKind::Number, scene.threads).read(&MaterialChannels::opacity);
+  look_up(scene.source, painter.opacities, painter);
 }
 
 SurfaceField field_of(std::shared_ptr<const Painter> painter, const MeshFile& file) {

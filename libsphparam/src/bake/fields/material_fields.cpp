@@ -19,27 +19,30 @@ namespace {
 
 /// What a lookup needs of a mesh: which material and which coordinates a face has.
 struct MaterialPlaces {
-  std::vector<int> material_of;  // a face; −1: none
-  SeamedTexcoords corners, second_corners;
+  std::vector<int> material_of;                            // a face; −1: none
+  SourceCoordinates::Coordinates corners, second_corners;  // null where no image lies on them
   TextureFilter filter;
 
+  void place(const BakeSource& source, const std::vector<SourceTexture>& textures) {
+    for (const bool second : {false, true})
+      if (has_image_on(textures, second))
+        (second ? second_corners : corners) = source.coordinates->of(source.file(), second, true);
+  }
+
   const SeamedTexcoords& corners_of(const SourceTexture& texture) const {
-    return texture.second ? second_corners : corners;
+    static const SeamedTexcoords none;
+    const auto& its = texture.second ? second_corners : corners;
+    return its ? *its : none;
   }
 };
 
-std::shared_ptr<const MaterialPlaces> places_of(const BakeScene& scene) {
+std::shared_ptr<MaterialPlaces> places_of(const BakeScene& scene) {
   const MeshFile& file = scene.source.file();
   auto places = std::make_shared<MaterialPlaces>();
   places->material_of.assign(static_cast<size_t>(file.mesh.face_count()), -1);
-  const Property* const material = file.find_face_property("material");
-  if (material)
+  if (const Property* const material = file.find_face_property("material"))
     std::ranges::transform(material->values, places->material_of.begin(),
                            [](double id) { return static_cast<int>(id); });
-  if (auto corners = texcoords_of(file))
-    places->corners = seamed(file.mesh.triangles, std::move(*corners), material);
-  if (file.second_texcoords)
-    places->second_corners = seamed(file.mesh.triangles, *file.second_texcoords, material);
   places->filter = scene.options.filter;
   return places;
 }
@@ -52,9 +55,7 @@ void require_channels(const BakeScene& scene, const std::string& field) {
 
 void require_texcoords(const BakeScene& scene, const std::string& field,
                        const std::vector<SourceTexture>& textures) {
-  const auto is_placed_by_them = [](const auto& t) { return t.image != nullptr && !t.second; };
-  const bool any = std::ranges::any_of(textures, is_placed_by_them);
-  if (any && !has_texcoords(scene.source.file()))
+  if (has_image_on(textures, false) && !has_texcoords(scene.source.file()))
     throw FieldError(field + ": the mesh has no texture coordinates, so its texture has no place" +
                      leaves_images_out);
 }
@@ -72,9 +73,11 @@ constexpr NumberChannel metallic{&MaterialChannels::metallic, "metallic", false}
 
 class NumberTextures {
  public:
-  NumberTextures(const BakeScene& scene, const NumberChannel& channel, TextureReader& reader)
+  NumberTextures(const BakeScene& scene, const NumberChannel& channel, TextureReader& reader,
+                 MaterialPlaces& places)
       : textures_(reader.read(channel.member)) {
     require_texcoords(scene, channel.name, textures_);
+    places.place(scene.source, textures_);
     for (const MaterialChannels& said : scene.source.file().channels)
       add(said.*channel.member, channel.towards_one);
     add(MaterialChannels().*channel.member, channel.towards_one);  // of no material
@@ -117,12 +120,13 @@ SurfaceField number_field(const BakeScene& scene, SurfaceField field,
   require_channels(scene, field.name);
   TextureReader reader(scene.source.file(), TexelKind::Number, scene.threads);
   const auto channels = std::make_shared<std::vector<NumberTextures>>();
-  for (const NumberChannel& channel : wanted) channels->emplace_back(scene, channel, reader);
+  const std::shared_ptr<MaterialPlaces> places = places_of(scene);
+  for (const NumberChannel& channel : wanted)
+    channels->emplace_back(scene, channel, reader, *places);
   field.channels = static_cast<int>(wanted.size());
   field.range = std::pair(0.0, 1.0);
   field.eight_bits = true;
-  field.evaluate_runs = [channels, places = places_of(scene)](std::span<const SurfaceRun> runs,
-                                                              float* values) {
+  field.evaluate_runs = [channels, places](std::span<const SurfaceRun> runs, float* values) {
     const int stride = static_cast<int>(channels->size());
     for (int c = 0; c < stride; ++c)
       (*channels)[static_cast<size_t>(c)].fill(*places, runs, stride, values + c);
@@ -173,14 +177,16 @@ SurfaceField make_emissive(const BakeScene& scene, const std::string&) {
   const double strength = strength_of(scene.source.file());
   std::vector<SourceTexture> textures = emission_of(scene, strength);
   require_texcoords(scene, "emissive", textures);
+  const std::shared_ptr<MaterialPlaces> places = places_of(scene);
+  places->place(scene.source, textures);
   SurfaceField field{
       .name = "emissive", .channels = 3, .kind = FieldKind::Colour, .about = "emitted light"};
   if (strength > 1) {
     field.about += ", divided by " + shortest(strength);
     field.texts.emplace_back(strength_text, shortest(strength));
   }
-  field.evaluate_runs = [textures = std::move(textures), places = places_of(scene)](
-                            std::span<const SurfaceRun> runs, float* values) {
+  field.evaluate_runs = [textures = std::move(textures), places](std::span<const SurfaceRun> runs,
+                                                                 float* values) {
     for (const SurfaceRun& run : runs) {
       const int id = places->material_of[static_cast<size_t>(run.face)];
       const SourceTexture& texture = id < 0 ? textures.back() : textures[static_cast<size_t>(id)];

@@ -70,7 +70,7 @@ struct SourceNormal::Maps {
   std::vector<SourceTexture> textures;  // a material
   std::vector<double> scales;
   std::vector<int> material_of;  // a face
-  SeamedTexcoords corners, second_corners;
+  SourceCoordinates::Coordinates corners, second_corners;
   SourceTangents frame;
 };
 
@@ -79,14 +79,14 @@ SourceNormal::SourceNormal(const BakeScene& scene) : scene_(&scene) {
   const Property* material = file.find_face_property("material");
   if (!material || !has_normal_map(file)) return;
   auto maps = std::make_shared<Maps>();
-  auto corners = texcoords_of(file);
-  if (!corners) {
+  if (!has_texcoords(file)) {
     throw FieldError(
         std::string(
             "normals: the mesh has no texture coordinates, so its normal map has no place") +
         leaves_images_out);
   }
-  maps->corners = seamed(file.mesh.triangles, std::move(*corners), material);
+  maps->corners = scene.source.coordinates->of(file, false, true);
+  maps->second_corners = scene.source.coordinates->of(file, true, true);
   maps->textures =
       TextureReader(file, TexelKind::Number, scene.threads).read(&MaterialChannels::normal);
   for (SourceTexture& texture : maps->textures) {
@@ -94,10 +94,9 @@ SourceNormal::SourceNormal(const BakeScene& scene) : scene_(&scene) {
     texture.factor = {1, 1, 1, 1};
   }
   maps->material_of.assign(material->values.begin(), material->values.end());
-  if (file.second_texcoords)
-    maps->second_corners = seamed(file.mesh.triangles, *file.second_texcoords, material);
-  maps->frame = source_tangents(file, scene.source.normals,
-                                placed(file, maps->corners.corners, maps->second_corners.corners));
+  maps->frame =
+      source_tangents(file, scene.source.normals,
+                      placed(file, maps->corners->corners, maps->second_corners->corners));
   take_own_tangents(file, maps->frame);
   maps_ = std::move(maps);
 }
@@ -113,7 +112,7 @@ Vector3 SourceNormal::mapped(const SurfaceSample& sample) const {
   sample_texture(
       texture, scene_->options.filter,
       texture_line({f, 1, weights, sample.step, sample.below},
-                   texture.second ? maps_->second_corners : maps_->corners, texture.placement),
+                   *(texture.second ? maps_->second_corners : maps_->corners), texture.placement),
       texel.data());
   Vector3 normal = Vector3::Zero(), tangent = Vector3::Zero();
   for (int k = 0; k < 3; ++k) {
