@@ -106,7 +106,8 @@ TEST_CASE("whole surface: a sphere is itself, one with holes is mended, a soup i
   const WholeSurface wrapped = whole_surface(source_of(two_balls()), coarse());
   CHECK(wrapped.by == WholeBy::Wrap);
   CHECK(wrapped.found.front() == "it is in 2 parts");
-  CHECK(wrapped.done.front() == "a skin is drawn around it, 3.12 % of its size away");
+  CHECK(wrapped.done.front() ==
+        "a skin is drawn around it, 0.313 % of its size away, across what is narrower than 6.25 %");
   CHECK(wrapped.details.size() > wrapped.done.size() + wrapped.found.size());
   CHECK(wrapped.mapped.mesh().face_count() <= 2000);
   CHECK(wrapped.mapped.certificate().bijective());
@@ -417,6 +418,7 @@ TEST_CASE("remake asset: a glTF mesh without materials looks as glTF has it, oth
     const bool is_gltf = std::string(format) != "OBJ";
     CHECK(fields == (is_gltf ? std::vector<std::string>{"basecolor", "orm"}
                              : std::vector<std::string>{"ao"}));
+    CHECK(made.baked.images[0].sample_type == SampleType::Uint8);
     if (!is_gltf) continue;
     const std::string stem = folder.path.string() + "/shape_";
     for (int x = 0; x < 32; ++x) {
@@ -425,6 +427,33 @@ TEST_CASE("remake asset: a glTF mesh without materials looks as glTF has it, oth
       CHECK(read_image(stem + "orm.png").pixel(x, 5)[2] == 1);
     }
   }
+}
+
+TEST_CASE("remake asset: which part has how much of the texels is told, one that is hidden none") {
+  const Folder folder;
+  TriangleMesh small = icosphere(1);
+  small.positions *= 0.2;
+  MeshSource asset = source_of(joined(small, icosphere(3), {0, 0, 0}));
+  std::vector<double> material(1360, 1);
+  std::fill_n(material.begin(), 80, 0);
+  asset.file.materials = {"core", "shell"};
+  asset.file.set_face_property({"material", ScalarType::Int32, material});
+  RemakeOptions options{.whole = coarse(), .width = 32};
+  options.page = false;
+  PendingFiles files;
+  const RemadeAsset made = remake_asset(asset, folder.path.string(), options, files);
+  REQUIRE(made.parts.size() == 2);
+  CHECK(made.parts[0].material == "shell");
+  CHECK(made.parts[0].triangles == 1280);
+  CHECK(made.parts[0].area == Approx(1 / 1.04).epsilon(0.01));
+  CHECK(made.parts[0].texels == 1);
+  CHECK(made.parts[1].triangles == 80);
+  CHECK(made.parts[1].texels == 0);
+  CHECK(line_of(made.parts) == "texels of its 2 parts: 100 %, 0 %; 1 has none");
+  const auto told = nlohmann::json::parse(to_json(asset, made))["parts"];
+  CHECK(told["count"] == 2);
+  CHECK(told["largest"][1]["material"] == "core");
+  CHECK(told["largest"][1]["texels"] == 0);
 }
 
 TEST_CASE("remake asset: a window does not make all of it glass, which is told with its share") {

@@ -56,6 +56,23 @@ TEST_CASE("wrap command: --faces leaves so many, and which axis is up goes along
   CHECK(sphparam_program({"wrap", glb, "-o", out, "--faces", "-1"}).code == 2);
 }
 
+TEST_CASE("wrap command: --gap draws it in, which is told, and a solid has its size again") {
+  const Folder folder;
+  const std::string out = folder / "w.ply";
+  const Ended ended = sphparam_program(
+      {"wrap", "-", "-o", out, "--resolution", "40", "--gap", "0.001", "--json", "-"},
+      obj_text(icosphere(3)));
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.err, Contains("at distance 0.1, drawn in to 0.001"));
+  CHECK(read_mesh(out).mesh.positions.cwiseAbs().maxCoeff() == Approx(1.0005).margin(6e-4));
+  const Json json = Json::parse(ended.out);
+  CHECK(json["gap"] == 0.001);
+  CHECK(json["insides"] == 1);
+  CHECK(json["cavities"] == 0);
+  CHECK(sphparam_program({"wrap", "-", "-o", out, "--gap", "1"}, obj_text(icosphere(1))).code == 2);
+}
+
 TEST_CASE("wrap command: the largest part alone, in the report too") {
   const Folder folder;
   const std::string out = folder / "wrapped.ply";

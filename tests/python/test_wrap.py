@@ -31,6 +31,14 @@ def test_the_largest_part_alone_and_fewer_triangles(soup):
     assert found.mesh.vertices[:, 0].min() > 1  # the closed one
 
 
+def test_drawn_in_a_solid_has_its_size():
+    found = sp.wrap(*potato(4), resolution=64, gap=1e-3)
+    assert found.gap == 1e-3 and found.insides == 1 and found.cavities == 0
+    assert found.apart.forth.mean < 2e-3 and found.apart.back.max < found.voxel
+    whole = sp.wrap(*potato(4), resolution=64)
+    assert whole.gap == whole.distance and (whole.mesh.faces == found.mesh.faces).all()
+
+
 def test_the_same_for_any_number_of_threads(soup):
     found = sp.wrap(*soup, resolution=32, threads=1)
     again = sp.wrap(*soup, resolution=32, threads=2)

@@ -88,13 +88,13 @@ TEST_CASE("simple points: the surface keeps its Euler characteristic and its num
   const auto strides = lattice().strides();
   const std::int64_t middle = lattice().index(4, 4, 4);
   const auto pieces = [](const Solid& solid) {
-    long cavities = 0;
+    std::vector<std::int64_t> hollows;
     std::vector<float> field(solid.size());
     for (size_t i = 0; i < solid.size(); ++i) field[i] = solid[i] ? -1.0f : 1.0f;
-    surrounded(lattice(), field, cavities);
+    surrounded(lattice(), field, hollows);
     return std::array<std::int64_t, 3>{euler_characteristic(lattice(), solid),
                                        static_cast<std::int64_t>(parts_of(lattice(), solid).size()),
-                                       cavities};
+                                       std::ssize(hollows)};
   };
   std::mt19937 random(3);
   int simple = 0;

@@ -7,6 +7,7 @@
 #include "sphparam/errors.h"
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/wrap/wrap.h"
+#include "support/cube.h"
 #include "support/test_meshes.h"
 
 namespace sphparam {
@@ -68,7 +69,9 @@ TEST_CASE("wrap: a sphere lies within a voxel of the distance, outside and in on
     check_shell(wrap);
     CHECK(wrap.parts == 1);
     CHECK(wrap.handles == 0);
-    CHECK(wrap.cavities == 1);
+    CHECK(wrap.insides == 1);
+    CHECK(wrap.cavities == 0);
+    CHECK(wrap.gap == wrap.distance);
     CHECK(wrap.added_share == 0);
     CHECK(wrap.soup_vertices == icosphere(4).vertex_count());
     const double radius = 1 + distance;
@@ -141,10 +144,60 @@ TEST_CASE("wrap: what is apart is joined by a bridge, or the largest is kept, bo
   CHECK(largest.mesh.positions.col(0).maxCoeff() < 1.5);
 }
 
+TEST_CASE("wrap: a void within a solid is a cavity, its outside an inside") {
+  TriangleMesh within = icosphere(3);
+  within.positions *= 0.5;
+  within.triangles.col(0).swap(within.triangles.col(1));
+  const Wrap hollow = wrap_soup(together(icosphere(3), within), {.voxel = 0.05});
+  CHECK(hollow.insides == 1);
+  CHECK(hollow.cavities == 1);
+  within.triangles.col(0).swap(within.triangles.col(1));
+  const Wrap filled = wrap_soup(together(icosphere(3), within), {.voxel = 0.05});
+  CHECK(filled.insides == 2);
+  CHECK(filled.cavities == 0);
+}
+
+TEST_CASE("wrap: drawn in to the gap, where no wall is") {
+  const Wrap ball = wrap_soup(icosphere(4), {.voxel = 0.1, .gap = 0.01});
+  CHECK(ball.gap == 0.01);
+  CHECK(ball.distance == 0.2);
+  CHECK(inspect_mesh(ball.mesh).defects.empty());
+  CHECK(ball.mesh.triangles == wrap_soup(icosphere(4), {.voxel = 0.1}).mesh.triangles);
+  CHECK(ball.apart.forth.at_vertices.minCoeff() > 0.99 * ball.gap);
+  CHECK(ball.apart.forth.at_vertices.maxCoeff() < 1.06 * ball.gap);
+  CHECK(inspect_mesh(ball.mesh).volume == Approx(4 * std::numbers::pi / 3).epsilon(0.03));
+
+  const Wrap flat = wrap_soup(sheet(), {.voxel = 0.05, .gap = 0.005});
+  CHECK(inspect_mesh(flat.mesh).defects.empty());
+  CHECK(flat.apart.forth.at_vertices.maxCoeff() < 1.06 * flat.gap);
+  CHECK(flat.apart.back.max < 0.02);
+
+  const Wrap ring = wrap_soup(torus(1, 0.3), {.voxel = 0.05, .distance = 0.1, .gap = 0.01});
+  CHECK(ring.handles == 1);
+  CHECK(ring.apart.forth.max == Approx(0.7).margin(0.05));  // the wall stays
+  const double disc = std::numbers::pi * 0.7 * 0.7 * ring.voxel;
+  const double body = 2 * std::numbers::pi * std::numbers::pi * 0.3 * 0.3;
+  CHECK(inspect_mesh(ring.mesh).volume == Approx(body + disc).epsilon(0.05));
+
+  CHECK_THROWS_AS(wrap_soup(sheet(), {.voxel = 0.1, .distance = 0.2, .gap = 0.3}),
+                  std::invalid_argument);
+}
+
+TEST_CASE("wrap: drawn in, corners stay corners, to less than a voxel") {
+  TriangleMesh box = cube();
+  const Wrap wrap = wrap_soup(box, {.voxel = 0.05 * box.positions.maxCoeff(), .gap = 1e-3});
+  const Vector3 lower = wrap.mesh.positions.colwise().minCoeff(),
+                upper = wrap.mesh.positions.colwise().maxCoeff();
+  const Vector3 low = box.positions.colwise().minCoeff(), high = box.positions.colwise().maxCoeff();
+  CHECK((lower - low).cwiseAbs().maxCoeff() < 2e-3);
+  CHECK((upper - high).cwiseAbs().maxCoeff() < 2e-3);
+  CHECK(wrap.apart.back.max < wrap.voxel);
+}
+
 TEST_CASE("wrap: the same bytes for any number of threads") {
   const TriangleMesh soup = together(torus(1, 0.3), moved(icosphere(1), {2.9, 0.3, 0.1}));
-  const Wrap one = wrap_soup(soup, {.resolution = 50, .threads = 1});
-  const Wrap two = wrap_soup(soup, {.resolution = 50, .threads = 2});
+  const Wrap one = wrap_soup(soup, {.resolution = 50, .gap = 0.01, .threads = 1});
+  const Wrap two = wrap_soup(soup, {.resolution = 50, .gap = 0.01, .threads = 2});
   CHECK(one.mesh.positions == two.mesh.positions);
   CHECK(one.mesh.triangles == two.mesh.triangles);
   CHECK(one.outside == two.outside);

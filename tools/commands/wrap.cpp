@@ -34,7 +34,7 @@ constexpr char summary[] =
     "  sphparam wrap asset.glb -o wrapped.ply --resolution 256\n"
     "  sphparam wrap scan.stl -o wrapped.ply --voxel 0.5 --distance 2 --json wrap.json\n"
     "  sphparam wrap parts.obj -o wrapped.ply --largest\n"
-    "  sphparam wrap asset.glb -o proxy.ply --resolution 256 --faces 50000\n"
+    "  sphparam wrap asset.glb -o proxy.ply --resolution 256 --gap 0.001 --faces 50000\n"
     "\n"
     "The triangles may be open, not manifold, in many parts, and pass through one another. The\n"
     "surface lies at the distance asked for, give or take less than a voxel; holes through it are\n"
@@ -127,6 +127,10 @@ void declare_options(Declaration& command, WrapArguments& arguments) {
       .number("--distance", options.distance, "LENGTH", length,
               "Of the surface from the soup, a voxel at least")
       .preset("two voxels")
+      .number("--gap", options.gap, "LENGTH", length,
+              "Draw the surface in at last, until so much of the distance is left; it may cut into "
+              "the soup then")
+      .preset("all of it")
       .flag("--largest", options.largest,
             "Keep the largest of the parts that are apart, instead of joining all")
       .number("--faces", options.faces, "N", {0, 100'000'000},

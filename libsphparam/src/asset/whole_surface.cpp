@@ -28,6 +28,7 @@ namespace sphparam {
 namespace {
 
 constexpr char wrap_comment[] = "wrapped about ";
+constexpr double gap_share = 0.1;  // of the distance of a wrap, that is left of it
 
 /// Whether a closed surface encloses hardly anything: its two sides would lie in one another.
 bool is_flat(const TriangleMesh& mesh) {
@@ -219,6 +220,7 @@ class Chooser {
     // Beyond it the mesh is too large, which `wrap_soup` says of it rather than of a voxel.
     constexpr double largest = 1e70;
     wrap.voxel = wrap.distance = std::min(longest_side(mesh) / options_.resolution, largest);
+    wrap.gap = gap_share * wrap.distance;
     return wrap;
   }
 

@@ -14,12 +14,13 @@ double outside_share(const Wrap& wrap) {
   return static_cast<double>(wrap.outside) / static_cast<double>(wrap.soup_vertices);
 }
 
-/// "lattice of 131 × 97 × 85 points, voxel 0.0156, at distance 0.0312 from the soup".
+/// "lattice of 131 × 97 × 85 points, voxel 0.0156, at distance 0.0312, drawn in to 0.001".
 std::string lattice_line(const Wrap& wrap) {
   std::string text = "lattice of " + std::to_string(wrap.lattice[0]);
   for (int axis = 1; axis < 3; ++axis) text += " × " + std::to_string(wrap.lattice[axis]);
   return text + " points, voxel " + short_number(wrap.voxel) + ", at distance " +
-         short_number(wrap.distance);
+         short_number(wrap.distance) +
+         (wrap.gap < wrap.distance ? ", drawn in to " + short_number(wrap.gap) : "");
 }
 
 std::string parts_line(const Wrap& wrap) {
@@ -67,9 +68,11 @@ std::string to_json(const WrapRecord& record) {
                     {"notes", record.soup.notes}}},
                   {"voxel", wrap.voxel},
                   {"distance", wrap.distance},
+                  {"gap", wrap.gap},
                   {"lattice", wrap.lattice},
                   {"parts", wrap.parts},
                   {"kept_share", wrap.kept_share},
+                  {"insides", wrap.insides},
                   {"cavities", wrap.cavities},
                   {"handles", wrap.handles},
                   {"added_share", wrap.added_share},

@@ -104,7 +104,8 @@ std::array<std::int8_t, 256> euler_table() {
 
 }  // namespace
 
-Solid surrounded(const Lattice& lattice, const std::vector<float>& field, long& cavities) {
+Solid surrounded(const Lattice& lattice, const std::vector<float>& field,
+                 std::vector<std::int64_t>& hollows) {
   enum : std::uint8_t { Near = 1, Far = 2, Reached = 0, Margin = 3 };
   Solid marks(field.size());
   for_each_point(lattice, [&](int x, int y, int z, std::int64_t i) {
@@ -116,11 +117,11 @@ Solid surrounded(const Lattice& lattice, const std::vector<float>& field, long& 
     if (depth(lattice, x, y, z) == 1 && marks[static_cast<size_t>(i)] == Far)
       flood(lattice, marks, i, Reached);
   });
-  cavities = 0;
+  hollows.clear();
   for (size_t i = 0; i < marks.size(); ++i) {
     if (marks[i] == Far) {
-      flood(lattice, marks, static_cast<std::int64_t>(i), Near);
-      ++cavities;
+      hollows.push_back(static_cast<std::int64_t>(i));
+      flood(lattice, marks, hollows.back(), Near);
     }
   }
   for (std::uint8_t& mark : marks) mark = mark == Near;

@@ -11,8 +11,10 @@ namespace sphparam {
 using Solid = std::vector<std::uint8_t>;
 
 /// All that the outside does not reach, from the faces of the lattice along points whose value is
-/// more than 0. `cavities`: how many pieces of such points it does not reach, which are solid too.
-Solid surrounded(const Lattice& lattice, const std::vector<float>& field, long& cavities);
+/// more than 0. `hollows`: of each piece of such points that it does not reach, which are solid
+/// too, the first.
+Solid surrounded(const Lattice& lattice, const std::vector<float>& field,
+                 std::vector<std::int64_t>& hollows);
 
 /// The sizes in points of the solid's connected parts, in the order of their first points.
 std::vector<std::int64_t> parts_of(const Lattice& lattice, const Solid& solid);

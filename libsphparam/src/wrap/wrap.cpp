@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 
@@ -15,6 +16,7 @@
 #include "sphparam/parallel.h"
 #include "wrap/carving.h"
 #include "wrap/distance_field.h"
+#include "wrap/drawing_in.h"
 #include "wrap/level_surface.h"
 #include "wrap/simplification.h"
 #include "wrap/solid.h"
@@ -70,6 +72,7 @@ void require_domain(const WrapOptions& options) {
   require_between("voxel", options.voxel, 0, largest_coordinate);
   require_at_least("resolution", options.resolution, 0);
   require_between("distance", options.distance, 0, largest_coordinate);
+  require_between("gap", options.gap, 0, largest_coordinate);
   require_at_least("faces", static_cast<double>(options.faces), 0);
 }
 
@@ -153,10 +156,55 @@ Lattice lattice_about(const Box& box, const WrapOptions& options, double voxel, 
 
 std::int64_t volume(const Solid& solid) { return std::count(solid.begin(), solid.end(), 1); }
 
+const Vector3 some_way = Vector3(0.36, 0.48, 0.8);
+
+/// Whether a ray out of a face goes with its normal.
+bool goes_out(const TriangleMesh& mesh, Face f, const Vector3& ray) {
+  const auto corner = [&](int k) { return mesh.position(mesh.triangles(f, k)); };
+  return flat_normal(corner(0), corner(1), corner(2)).dot(ray) > 0;
+}
+
+/// By the first face that a ray from the point meets.
+bool encloses(const TriangleMesh& wrap, const RayScene& scene, const Vector3& point) {
+  const RayHit hit = scene.first_hit(point, some_way, std::numeric_limits<double>::infinity());
+  return hit.face >= 0 && goes_out(wrap, hit.face, some_way);
+}
+
+/// How many more faces of a soup a ray from the point leaves than it enters.
+int windings(const TriangleMesh& soup, const RayScene& scene, Vector3 point) {
+  int left = 0;
+  for (;;) {
+    const RayHit hit = scene.first_hit(point, some_way, std::numeric_limits<double>::infinity());
+    if (hit.face < 0) return left;
+    left += goes_out(soup, hit.face, some_way) ? 1 : -1;
+    point += (hit.distance + scene.clearance()) * some_way;
+  }
+}
+
+Vector3 place_of(std::int64_t point, const Lattice& lattice) {
+  const auto [along_x, along_y, along_z] = lattice.points;
+  return lattice.position(static_cast<double>(point % along_x),
+                          static_cast<double>(point / along_x % along_y),
+                          static_cast<double>(point / along_x / along_y));
+}
+
+/// Tells the insides of what is closed from other hollows.
+void count_hollows(const TriangleMesh& soup, const Lattice& lattice,
+                   const std::vector<std::int64_t>& hollows, Wrap& wrap) {
+  if (hollows.empty()) return;
+  const RayScene scene(soup);
+  wrap.insides = std::ranges::count_if(hollows, [&](std::int64_t point) {
+    return windings(soup, scene, place_of(point, lattice)) > 0;
+  });
+  wrap.cavities = std::ssize(hollows) - wrap.insides;
+}
+
 /// The ball that encloses what is near; tells what stood in its way.
-Solid ball_about(const Lattice& lattice, const std::vector<float>& field,
+Solid ball_about(const TriangleMesh& soup, const Lattice& lattice, const std::vector<float>& field,
                  const WrapOptions& options, Wrap& wrap) {
-  Solid solid = surrounded(lattice, field, wrap.cavities);
+  std::vector<std::int64_t> hollows;
+  Solid solid = surrounded(lattice, field, hollows);
+  count_hollows(soup, lattice, hollows, wrap);
   const auto all = static_cast<double>(volume(solid));
   wrap.parts = static_cast<long>(parts_of(lattice, solid).size());
   if (options.largest && wrap.parts > 1) keep_largest(lattice, solid);
@@ -175,16 +223,7 @@ TriangleMesh surface_about(const TriangleMesh& soup, const Lattice& lattice,
                            const WrapOptions& options, Wrap& wrap) {
   const std::vector<float> field =
       distance_field(soup, lattice, wrap.distance, options.threads, options.progress);
-  return level_surface(lattice, field, ball_about(lattice, field, options, wrap));
-}
-
-/// By the first face that a ray from the point meets: its normal goes with the ray out of the wrap.
-bool encloses(const TriangleMesh& wrap, const RayScene& scene, const Vector3& point) {
-  const Vector3 ray = Vector3(0.36, 0.48, 0.8);
-  const RayHit hit = scene.first_hit(point, ray, std::numeric_limits<double>::infinity());
-  if (hit.face < 0) return false;
-  const auto corner = [&](int k) { return wrap.position(wrap.triangles(hit.face, k)); };
-  return flat_normal(corner(0), corner(1), corner(2)).dot(ray) > 0;
+  return level_surface(lattice, field, ball_about(soup, lattice, field, options, wrap));
 }
 
 void count_outside(const TriangleMesh& soup, const std::vector<char>& used, int threads,
@@ -226,11 +265,16 @@ Wrap wrap_soup(const TriangleMesh& soup, const WrapOptions& options) {
   require_regular(box, wrap.voxel);
   wrap.distance = options.distance > 0 ? options.distance : usual_distance * wrap.voxel;
   require_at_least("distance", wrap.distance, wrap.voxel);
+  wrap.gap = options.gap > 0 ? options.gap : wrap.distance;
+  require_between("gap", wrap.gap, 0, wrap.distance);
   const Lattice lattice = lattice_about(box, options, wrap.voxel, wrap.distance);
   wrap.lattice = lattice.points;
   wrap.mesh = surface_about(soup, lattice, options, wrap);
   require_sphere(wrap.mesh, options.threads);
   wrap.lattice_faces = wrap.mesh.face_count();
+  if (wrap.gap < wrap.distance)
+    draw_in(wrap.mesh, soup,
+            {wrap.distance, wrap.voxel, wrap.gap, options.threads, options.progress});
   if (options.faces > 0)
     wrap.mesh = simplified(std::move(wrap.mesh), options.faces, options.progress);
   count_outside(soup, used, options.threads, wrap);

@@ -14,6 +14,7 @@ WrapOptions options_of(const py::dict& values) {
   settings.take("voxel", options.voxel)
       .take("resolution", options.resolution)
       .take("distance", options.distance)
+      .take("gap", options.gap)
       .take("largest", options.largest)
       .take("triangles", options.faces)
       .take("threads", options.threads);
@@ -27,6 +28,8 @@ py::dict figures_of(const Wrap& wrap) {
   dict["distance"] = wrap.distance;
   dict["lattice"] = py::make_tuple(wrap.lattice[0], wrap.lattice[1], wrap.lattice[2]);
   dict["parts"] = wrap.parts;
+  dict["gap"] = wrap.gap;
+  dict["insides"] = wrap.insides;
   dict["cavities"] = wrap.cavities;
   dict["handles"] = wrap.handles;
   dict["added_share"] = wrap.added_share;

@@ -20,12 +20,16 @@ class Wrap(NamedTuple):
     """Between points of the lattice, in units of the mesh."""
     distance: float
     """Of the surface from the triangles; of one with fewer triangles only about."""
+    gap: float
+    """What is left of the distance, where the surface was drawn in; else ``distance``."""
     lattice: Tuple[int, int, int]
     """Points each way."""
     parts: int
     """Shells that were apart; they are joined by bridges, or the largest is kept."""
+    insides: int
+    """Of closed parts, as their faces look."""
     cavities: int
-    """That nothing reaches from outside: solid now."""
+    """Beside these, that nothing reaches from outside: solid now."""
     handles: int
     """Holes through it that are closed by walls, a voxel thick."""
     added_share: float
@@ -45,6 +49,7 @@ def wrap(
     voxel: float = 0.0,
     resolution: int = 0,
     distance: float = 0.0,
+    gap: float = 0.0,
     largest: bool = False,
     triangles: int = 0,
     threads: int = 0,
@@ -66,6 +71,9 @@ def wrap(
         ``distance``.
     distance
         Of the surface from the triangles, a voxel at least; 0: two voxels.
+    gap
+        Draw the surface in at last, until so much of the distance is left; it may cut into what it is about,
+        and itself, then. 0: all of the distance.
     largest
         Keep the largest of the parts that are apart, instead of joining all.
     triangles
@@ -88,6 +96,7 @@ def wrap(
         "voxel": finest,
         "resolution": count,
         "distance": away,
+        "gap": _arrays.real(gap, "gap"),
         "largest": _arrays.flag(largest, "largest"),
         "triangles": _arrays.whole(triangles, "triangles", 0, 100_000_000),
         "threads": _arrays.threads(threads),

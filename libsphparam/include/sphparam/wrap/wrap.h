@@ -18,6 +18,9 @@ struct WrapOptions {
   int resolution = 0;
   /// Of the surface from the soup; a voxel at least. 0: two voxels.
   double distance = 0;
+  /// What is left of the distance when the surface is drawn in at last. It may then cut into the
+  /// soup, by less than a voxel, and itself. 0: all of it.
+  double gap = 0;
   /// Of shells that are apart the one with the largest volume is kept; else all are joined.
   bool largest = false;
   /// About so many triangles are left of the surface, never fewer than 4; the least visible
@@ -44,7 +47,9 @@ struct Wrap {
   long lattice_faces = 0;                  // triangles, before it got fewer
 
   long parts = 0;     // shells that were apart at this distance
-  long cavities = 0;  // that nothing reaches from outside: solid now
+  double gap = 0;     // as used; `distance` where the surface is not drawn in
+  long insides = 0;   // of closed parts, as their faces look
+  long cavities = 0;  // beside these, that nothing reaches from outside: solid now
   long handles = 0;   // what went through them is closed by walls, a voxel thick
   /// Of the volume, what was added to be rid of handles and to join parts.
   double added_share = 0;
@@ -52,7 +57,7 @@ struct Wrap {
   double kept_share = 1;
 
   long soup_vertices = 0;  // that triangles use
-  long outside = 0;        // of these; none unless `largest` dropped their parts
+  long outside = 0;        // of these; none unless `largest` dropped their parts, or options say so
   SurfaceDistance apart;   // forth: of the wrap from the soup; back: of the soup from the wrap
 };
 
@@ -68,9 +73,11 @@ struct Wrap {
 /// solid is instead carved out of the full box, the farthest points first, each only where neither
 /// solid nor air changes its topology (simple points; Bertrand, "Simple points, topological numbers
 /// and geodesic neighborhoods in cubic grids", 1994): walls a voxel thick stay across holes,
-/// bridges between parts. Our own: on the lattice of tetrahedra, whose links are spheres, a point
-/// is simple when both sides of its link are connected. A volume library's level set was tried: its
-/// distances are off by 0.76 voxels eight voxels from the soup, and it knows no topology.
+/// bridges between parts. With `gap`, vertices at the distance then go in along their normals until
+/// only that is left, where the soup lets them; walls and bridges stay. Our own: on the lattice of
+/// tetrahedra, whose links are spheres, a point is simple when both sides of its link are
+/// connected. A volume library's level set was tried: its distances are off by 0.76 voxels eight
+/// voxels from the soup, and it knows no topology.
 ///
 /// Requires: a lattice of at most 100 million points.
 /// Throws: MeshError where triangles name vertices that are not there or not finite, or there are
