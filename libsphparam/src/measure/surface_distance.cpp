@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <stdexcept>
 #include <string_view>
@@ -89,10 +88,17 @@ struct Meter {
   }
 };
 
+/// What distances are measured to.
+struct Target {
+  const TriangleMesh& mesh;
+  RayScene scene;
+};
+
 /// One surface's points on the way to another.
 struct Direction {
+  Side side;
   const TriangleMesh& from;
-  const RayScene& to;
+  const Target& to;
   const Enclosure* inside;  // none: sides are not asked for
   double noise;             // of samples; what is no farther is on the other surface
   int threads;
@@ -117,7 +123,7 @@ struct Direction {
         Face guess = -1;
         for (std::int64_t i = start + first; i < start + last; ++i) {
           const Vector3 point = point_at(i);
-          const NearestPoint found = to.nearest(point, guess, enough * enough);
+          const NearestPoint found = to.scene.nearest(point, guess, enough * enough);
           guess = found.on.face;
           measure(i, std::sqrt(found.squared_distance), found.on.face, point, part);
         }
@@ -147,8 +153,8 @@ std::vector<char> used_vertices(const TriangleMesh& mesh) {
   return used;
 }
 
-Tally measure_vertices(Direction& direction, const TriangleMesh& other, VertexDistances& result,
-                       VectorX& deviations) {
+Tally measure_vertices(Direction& direction, VertexDistances& result, VectorX& deviations) {
+  const TriangleMesh& other = direction.to.mesh;
   const std::vector<char> used = used_vertices(direction.from);
   deviations.resize(direction.inside ? direction.from.vertex_count() : 0);
   result.distances.resize(direction.from.vertex_count());
@@ -181,67 +187,90 @@ Tally measure_samples(Direction& direction, const Samples& samples) {
 
 /// Throws: UnmeasurableSurface where there is nothing to draw from.
 template <class Samples>
-Samples samples_of(const TriangleMesh& mesh, Side side, const char* size,
-                   const DistanceOptions& options) {
-  try {
-    return Samples(mesh, options.samples, options.seed);
-  } catch (const std::invalid_argument&) {
-    throw UnmeasurableSurface(side, std::string("there is no ") + size + " to take samples of");
-  }
+Samples samples_of(const Direction& direction, const char* size,
+                   const DistanceOptions& options) try {
+  return Samples(direction.from, options.samples, options.seed);
+} catch (const std::invalid_argument&) {
+  throw UnmeasurableSurface(direction.side,
+                            std::string("there is no ") + size + " to take samples of");
 }
 
-OneSidedDistance measure_one_side(Side side, const TriangleMesh& from, const TriangleMesh& other,
-                                  const RayScene& to, const Enclosure* inside,
-                                  const DistanceOptions& options) {
+bool asks_vertices(const DistanceOptions& options) { return options.extremes || options.vertices; }
+
+std::int64_t count_points(const TriangleMesh& mesh, const DistanceOptions& options) {
+  return asks_vertices(options) * mesh.vertex_count() +
+         options.samples * (int{options.faces} + int{options.edges});
+}
+
+/// The points of one side that were looked at: `samples`, those of mean and RMS, and all.
+struct MeasuredPoints {
+  VertexDistances at_vertices;
+  VectorX deviations;  // of vertices
+  Tally samples, all;
+};
+
+MeasuredPoints measure_points(Direction& direction, const DistanceOptions& options) {
+  MeasuredPoints points;
+  if (asks_vertices(options))
+    points.all = measure_vertices(direction, points.at_vertices, points.deviations);
+  if (options.vertices) points.samples.add(points.all);
+  if (options.edges) {
+    const auto on_edges = samples_of<EdgeSamples>(direction, "length of edges", options);
+    points.samples.add(measure_samples(direction, on_edges));
+  }
+  if (options.faces) {
+    const auto on_faces = samples_of<FaceSamples>(direction, "area", options);
+    points.samples.add(measure_samples(direction, on_faces));
+  }
+  points.all.add(points.samples);
+  return points;
+}
+
+/// Of these points, and with `extremes` of what lies between them.
+FarthestPoint farthest_of(const MeasuredPoints& points, const Direction& direction,
+                          const DistanceOptions& options) {
+  const FarthestPoint known{.point = points.all.farthest,
+                            .distance = points.all.max,
+                            .at_most = std::numeric_limits<double>::infinity()};
+  if (!options.extremes) return known;
+  return find_farthest(direction.from, points.at_vertices, direction.to.mesh, direction.to.scene,
+                       known, options.samples, options.threads);
+}
+
+/// Takes the vertices' out of `points`. The farthest point counts with them.
+SignedDeviation deviation_of(MeasuredPoints& points, const Direction& direction,
+                             const OneSidedDistance& measured) {
+  points.all.add_deviation(direction.deviation(measured.max, measured.farthest));
+  return {.min = points.all.most_inside,
+          .max = points.all.most_outside,
+          .mean = points.samples.signed_sum / static_cast<double>(points.samples.count),
+          .at_vertices = std::move(points.deviations)};
+}
+
+OneSidedDistance measure_one_side(Side side, const TriangleMesh& from, const Target& to,
+                                  const Enclosure* inside, const DistanceOptions& options) {
   const std::string_view stage = side == Side::First ? "first to second" : "second to first";
-  const bool asks_vertices = options.extremes || options.vertices;
-  const std::int64_t points = asks_vertices * from.vertex_count() +
-                              options.samples * (int{options.faces} + int{options.edges});
-  Direction direction = {from,
+  const auto points_in_all = static_cast<double>(count_points(from, options));
+  Direction direction = {side,
+                         from,
                          to,
                          inside,
                          sample_rounding * largest_coordinate(from),
                          options.threads,
-                         {options.progress, stage, static_cast<double>(points)}};
-  OneSidedDistance result;
-  SignedDeviation deviation;
-  VertexDistances at_vertices;
-  Tally vertices, samples;
-  if (asks_vertices)
-    vertices = measure_vertices(direction, other, at_vertices, deviation.at_vertices);
-  if (options.vertices) samples.add(vertices);
-  if (options.edges) {
-    const auto on_edges = samples_of<EdgeSamples>(from, side, "length of edges", options);
-    samples.add(measure_samples(direction, on_edges));
-  }
-  if (options.faces) {
-    const auto on_faces = samples_of<FaceSamples>(from, side, "area", options);
-    samples.add(measure_samples(direction, on_faces));
-  }
-  const auto count = static_cast<double>(samples.count);
-  result.samples = samples.count;
-  result.mean = samples.sum / count;
-  result.rms = std::sqrt(samples.squares / count);
-  Tally all = vertices;
-  all.add(samples);
-  result.min = all.min;
-  FarthestPoint farthest{.point = all.farthest,
-                         .distance = all.max,
-                         .at_most = std::numeric_limits<double>::infinity()};
-  if (options.extremes)
-    farthest =
-        find_farthest(from, at_vertices, other, to, farthest, options.samples, options.threads);
-  const bool noise = farthest.distance < direction.noise;
-  result.max = noise ? all.max : farthest.distance;
-  result.max_bound = farthest.at_most;
-  result.farthest = farthest.point;
-  result.at_vertices = std::move(at_vertices.distances);
-  if (!inside) return result;
-  all.add_deviation(direction.deviation(result.max, result.farthest));
-  deviation.min = all.most_inside;
-  deviation.max = all.most_outside;
-  deviation.mean = samples.signed_sum / count;
-  result.deviation = std::move(deviation);
+                         {options.progress, stage, points_in_all}};
+  MeasuredPoints points = measure_points(direction, options);
+  const FarthestPoint farthest = farthest_of(points, direction, options);
+  const bool is_noise = farthest.distance < direction.noise;
+  const auto count = static_cast<double>(points.samples.count);
+  OneSidedDistance result = {.max = is_noise ? points.all.max : farthest.distance,
+                             .max_bound = farthest.at_most,
+                             .min = points.all.min,
+                             .mean = points.samples.sum / count,
+                             .rms = std::sqrt(points.samples.squares / count),
+                             .samples = points.samples.count,
+                             .farthest = farthest.point,
+                             .at_vertices = std::move(points.at_vertices.distances)};
+  if (inside) result.deviation = deviation_of(points, direction, result);
   return result;
 }
 
@@ -290,17 +319,17 @@ void scale_lengths(SurfaceDistance& distance, double scale) {
 SurfaceDistance measure_in_range(const TriangleMesh& first, const TriangleMesh& second,
                                  const DistanceOptions& options) {
   report(options.progress, "trees", 0);
-  const RayScene first_scene(first);
+  const Target to_first{first, RayScene(first)};
   report(options.progress, "trees", 0.5);
-  const RayScene second_scene(second);
+  const Target to_second{second, RayScene(second)};
   std::optional<Enclosure> inside;
   if (options.deviations) inside.emplace(second);
   const Enclosure* const enclosed = inside ? &*inside : nullptr;
   SurfaceDistance result;
-  result.forth = measure_one_side(Side::First, first, second, second_scene, enclosed, options);
-  result.back = measure_one_side(Side::Second, second, first, first_scene, nullptr, options);
-  result.diagonal_first = first_scene.diagonal();
-  result.diagonal_second = second_scene.diagonal();
+  result.forth = measure_one_side(Side::First, first, to_second, enclosed, options);
+  result.back = measure_one_side(Side::Second, second, to_first, nullptr, options);
+  result.diagonal_first = to_first.scene.diagonal();
+  result.diagonal_second = to_second.scene.diagonal();
   return result;
 }
 
