@@ -80,22 +80,26 @@ void StencilLeastSquares::list_neighbours(const Polygons& faces) {
   for (int& corner : neighbours_) corner = next[static_cast<size_t>(corner)];
 }
 
+template <class Visit>
+void StencilLeastSquares::for_each_entry(int v, const Visit& visit) const {
+  for (std::int64_t i = entry_starts_[static_cast<size_t>(v)];
+       i < entry_starts_[static_cast<size_t>(v) + 1]; ++i) {
+    const std::int64_t e = entries_[static_cast<size_t>(i)];
+    const int patch = patch_of_[static_cast<size_t>(e)];
+    visit(patch, stencils_.weights(patch).col(e - stencils_.first_entry(patch)));
+  }
+}
+
 void StencilLeastSquares::list_thin_vertices() {
   const int vertices = stencils_.vertex_count();
   VectorX seen(vertices);  // Σ W² w
   const std::int64_t m = std::ssize(stencils_.places());
   parallel_for(vertices, vertex_grain, threads_, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t v = first; v < last; ++v) {
+    for (auto v = static_cast<int>(first); v < static_cast<int>(last); ++v) {
       seen[v] = 0;
-      for (std::int64_t i = entry_starts_[static_cast<size_t>(v)];
-           i < entry_starts_[static_cast<size_t>(v) + 1]; ++i) {
-        const std::int64_t e = entries_[static_cast<size_t>(i)];
-        const int patch = patch_of_[static_cast<size_t>(e)];
-        seen[v] += stencils_.weights(patch)
-                       .col(e - stencils_.first_entry(patch))
-                       .cwiseAbs2()
-                       .dot(weights_.segment(patch * m, m));
-      }
+      for_each_entry(v, [&](int patch, const auto& column) {
+        seen[v] += column.cwiseAbs2().dot(weights_.segment(patch * m, m));
+      });
     }
   });
   const double enough = thin_share * seen.mean();
@@ -104,31 +108,29 @@ void StencilLeastSquares::list_thin_vertices() {
   }
 }
 
-void StencilLeastSquares::make_preconditioner() {
+Eigen::Matrix3d StencilLeastSquares::diagonal_block(int v) const {
   const std::int64_t m = std::ssize(stencils_.places());
+  Eigen::Matrix3d along = Eigen::Matrix3d::Zero();
+  double all = 0;
+  for_each_entry(v, [&](int patch, const auto& column) {
+    for (std::int64_t k = 0; k < m; ++k) {
+      const double weight = column[k] * column[k] * weights_[patch * m + k];
+      all += weight;
+      if (tangential_ < 1) {
+        const Vector3 n = normals_.row(patch * m + k);
+        along += weight * n * n.transpose();
+      }
+    }
+  });
+  return tangential_ * all * Eigen::Matrix3d::Identity() + (1 - tangential_) * along;
+}
+
+void StencilLeastSquares::make_preconditioner() {
   inverse_blocks_.resize(static_cast<size_t>(stencils_.vertex_count()));
   parallel_for(std::ssize(inverse_blocks_), vertex_grain, threads_,
                [&](std::int64_t first, std::int64_t last) {
-                 for (auto v = static_cast<size_t>(first); v < static_cast<size_t>(last); ++v) {
-                   Eigen::Matrix3d along = Eigen::Matrix3d::Zero();
-                   double all = 0;
-                   for (std::int64_t i = entry_starts_[v]; i < entry_starts_[v + 1]; ++i) {
-                     const std::int64_t e = entries_[static_cast<size_t>(i)];
-                     const int patch = patch_of_[static_cast<size_t>(e)];
-                     const auto column =
-                         stencils_.weights(patch).col(e - stencils_.first_entry(patch));
-                     for (std::int64_t k = 0; k < m; ++k) {
-                       const double weight = column[k] * column[k] * weights_[patch * m + k];
-                       all += weight;
-                       if (tangential_ < 1) {
-                         const Vector3 n = normals_.row(patch * m + k);
-                         along += weight * n * n.transpose();
-                       }
-                     }
-                   }
-                   inverse_blocks_[v] =
-                       tangential_ * all * Eigen::Matrix3d::Identity() + (1 - tangential_) * along;
-                 }
+                 for (auto v = static_cast<int>(first); v < static_cast<int>(last); ++v)
+                   inverse_blocks_[static_cast<size_t>(v)] = diagonal_block(v);
                });
   for (const ThinVertex& thin : thin_) {
     const auto v = static_cast<size_t>(thin.vertex);
@@ -164,24 +166,27 @@ Points StencilLeastSquares::evaluate(const Points& control) const {
   return points;
 }
 
+Eigen::MatrixX3d StencilLeastSquares::in_metric(int patch, Eigen::MatrixX3d y) const {
+  const std::int64_t m = std::ssize(stencils_.places());
+  const auto w = weights_.segment(patch * m, m);
+  if (tangential_ < 1) {
+    const auto n = normals_.middleRows(patch * m, m);
+    const VectorX along = (1 - tangential_) * n.cwiseProduct(y).rowwise().sum().cwiseProduct(w);
+    y = tangential_ * (w.asDiagonal() * y).eval();
+    y += along.asDiagonal() * n;
+  } else {
+    y = (w.asDiagonal() * y).eval();
+  }
+  return y;
+}
+
 template <class AtSamples>
 Points StencilLeastSquares::gather(const AtSamples& at_samples) const {
-  const std::int64_t m = std::ssize(stencils_.places());
   Points of_entries(std::ssize(entries_), 3);
   parallel_for(stencils_.patch_count(), patch_grain, threads_,
                [&](std::int64_t first, std::int64_t last) {
                  for (auto p = static_cast<int>(first); p < static_cast<int>(last); ++p) {
-                   Eigen::MatrixX3d y = at_samples(p);
-                   const auto w = weights_.segment(p * m, m);
-                   if (tangential_ < 1) {
-                     const auto n = normals_.middleRows(p * m, m);
-                     const VectorX along =
-                         (1 - tangential_) * n.cwiseProduct(y).rowwise().sum().cwiseProduct(w);
-                     y = tangential_ * (w.asDiagonal() * y).eval();
-                     y += along.asDiagonal() * n;
-                   } else {
-                     y = (w.asDiagonal() * y).eval();
-                   }
+                   const Eigen::MatrixX3d y = in_metric(p, at_samples(p));
                    const std::int64_t entry = stencils_.first_entry(p);
                    of_entries.middleRows(entry, stencils_.first_entry(p + 1) - entry) =
                        stencils_.weights(p).transpose().lazyProduct(y);

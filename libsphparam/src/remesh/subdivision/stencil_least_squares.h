@@ -56,7 +56,13 @@ class StencilLeastSquares {
   void list_entries();
   void list_neighbours(const Polygons& faces);
   void list_thin_vertices();
+  /// Calls visit(patch, weights in its points) for all patches that depend on v.
+  template <class Visit>
+  void for_each_entry(int v, const Visit& visit) const;
   void make_preconditioner();
+  Eigen::Matrix3d diagonal_block(int v) const;
+  /// G y at a patch's points.
+  Eigen::MatrixX3d in_metric(int patch, Eigen::MatrixX3d y) const;
   /// Wᵀ G y, where `at_samples(patch)` gives y: m × 3.
   template <class AtSamples>
   Points gather(const AtSamples& at_samples) const;

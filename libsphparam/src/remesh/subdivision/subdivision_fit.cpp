@@ -144,53 +144,85 @@ void require_domain(const SubdivisionFitOptions& options) {
   if (!(options.reduction < 1)) refuse_option("reduction", options.reduction, "below 1");
 }
 
+/// A fit and what it is made with.
+class Fitting {
+ public:
+  /// Puts the control points and the samples where the map has them.
+  Fitting(const MappedMesh& mapped, const SphereGrid& grid, const SubdivisionFitOptions& options)
+      : options_(options),
+        source_(mapped.mesh()),
+        topology_(topology_of(grid, options.scheme)),
+        stencils_(*topology_, places_of_samples(), options.threads),
+        samples_(source_, mapped.map(), LimitSurface(topology_, grid.directions), stencils_,
+                 mapped.locator(), options.threads),
+        squares_(stencils_, grid.faces, samples_.weights, options.threads) {
+    fit_.topology = topology_;
+    fit_.control =
+        points_of(source_, mapped.locator().locate_all(grid.directions, options.threads));
+    fit_.samples = samples_.weights.size();
+    fit_.thin_vertices = squares_.thin_count();
+    fit_.sampling_seconds = stopwatch_.lap();
+  }
+
+  SubdivisionFit run() {
+    minimise(samples_.in_place, options_.rounds == 0);
+    fit_.rms_in_place =
+        rms((squares_.evaluate(fit_.control) - samples_.in_place).rowwise().squaredNorm().matrix());
+    const RayScene scene(source_);
+    project(scene, 0);
+    for (int round = 1; round <= options_.rounds; ++round) {
+      squares_.set_metric(samples_.normals, sliding_price);
+      minimise(samples_.targets, round == options_.rounds);
+      project(scene, round);
+    }
+    fit_.rms = rms(samples_.squared_distances);
+    fit_.max = std::sqrt(samples_.squared_distances.maxCoeff());
+    return std::move(fit_);
+  }
+
+ private:
+  std::vector<Eigen::Vector2d> places_of_samples() const {
+    const int along = samples_along_edge(options_, source_.face_count(), topology_->patch_count());
+    return middles_of_pieces(options_.scheme, along);
+  }
+
+  void minimise(const Points& targets, bool last) {
+    const double reduction =
+        last ? options_.reduction : std::max(options_.reduction, early_reduction);
+    fit_.steps.push_back(
+        squares_.minimise(targets, fit_.control, reduction, options_.progress).steps);
+    fit_.solving_seconds += stopwatch_.lap();
+  }
+
+  void project(const RayScene& scene, int round) {
+    report(options_.progress, "project", static_cast<double>(round) / (options_.rounds + 1));
+    samples_.project(scene, LimitSurface(topology_, fit_.control));
+    fit_.projecting_seconds += stopwatch_.lap();
+  }
+
+  template <class Squared>
+  double rms(const Squared& squared) const {
+    return std::sqrt(samples_.weights.dot(squared) / samples_.weights.sum());
+  }
+
+  const SubdivisionFitOptions& options_;
+  const TriangleMesh& source_;
+  Stopwatch stopwatch_;
+  std::shared_ptr<const LimitTopology> topology_;
+  LimitStencils stencils_;
+  Samples samples_;
+  StencilLeastSquares squares_;
+  SubdivisionFit fit_;
+};
+
 }  // namespace
 
 SubdivisionFit fit_subdivision(const MappedMesh& mapped, const SphereGrid& grid,
                                const SubdivisionFitOptions& options) {
   require_domain(options);
-  const TriangleMesh& source = mapped.mesh();
-  require_measurable(source);
-  const int threads = options.threads;
-  Stopwatch stopwatch;
+  require_measurable(mapped.mesh());
   report(options.progress, "samples", 0);
-  SubdivisionFit fit;
-  fit.topology = topology_of(grid, options.scheme);
-  const int along = samples_along_edge(options, source.face_count(), fit.topology->patch_count());
-  const LimitStencils stencils(*fit.topology, middles_of_pieces(options.scheme, along), threads);
-  const SphereLocator& locator = mapped.locator();
-  fit.control = points_of(source, locator.locate_all(grid.directions, threads));
-  Samples samples(source, mapped.map(), LimitSurface(fit.topology, grid.directions), stencils,
-                  locator, threads);
-  fit.samples = samples.weights.size();
-  StencilLeastSquares squares(stencils, grid.faces, samples.weights, threads);
-  fit.thin_vertices = squares.thin_count();
-  fit.sampling_seconds = stopwatch.lap();
-
-  const auto minimise = [&](const Points& targets, bool last) {
-    const double reduction =
-        last ? options.reduction : std::max(options.reduction, early_reduction);
-    fit.steps.push_back(squares.minimise(targets, fit.control, reduction, options.progress).steps);
-    fit.solving_seconds += stopwatch.lap();
-  };
-  const auto rms = [&](const auto& squared) {
-    return std::sqrt(samples.weights.dot(squared) / samples.weights.sum());
-  };
-  minimise(samples.in_place, options.rounds == 0);
-  fit.rms_in_place =
-      rms((squares.evaluate(fit.control) - samples.in_place).rowwise().squaredNorm().matrix());
-  const RayScene scene(source);
-  for (int round = 0;; ++round) {
-    report(options.progress, "project", static_cast<double>(round) / (options.rounds + 1));
-    samples.project(scene, LimitSurface(fit.topology, fit.control));
-    fit.projecting_seconds += stopwatch.lap();
-    if (round == options.rounds) break;
-    squares.set_metric(samples.normals, sliding_price);
-    minimise(samples.targets, round == options.rounds - 1);
-  }
-  fit.rms = rms(samples.squared_distances);
-  fit.max = std::sqrt(samples.squared_distances.maxCoeff());
-  return fit;
+  return Fitting(mapped, grid, options).run();
 }
 
 }  // namespace sphparam
