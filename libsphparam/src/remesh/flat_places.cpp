@@ -4,6 +4,7 @@
 #include "remesh/flat_places.h"
 
 #include "rays/triangle_distance.h"
+#include "remesh/walk_to_nearest.h"
 #include "sphparam/parallel.h"
 
 namespace sphparam {
@@ -17,20 +18,12 @@ class Facets {
   Facets(const Topology& topology, const SphereMap& map) : topology_(topology), map_(map) {}
 
   SurfacePoint nearest(const Vector3& p, Face start) const {
-    TrianglePoint best = on_face(p, start);
-    Face at = start;
-    for (Face from = -1; from != at;) {
-      from = at;
-      for (int k = 0; k < 3; ++k) {
-        topology_.for_each_outgoing(topology_.vertex(from, k), [&](Halfedge h) {
-          const TrianglePoint other = on_face(p, Topology::face(h));
-          if (!(other.squared_distance < best.squared_distance)) return;
-          best = other;
-          at = Topology::face(h);
+    const auto [face, point] = walk_to_nearest(
+        topology_, start, [&](Face f) { return on_face(p, f); },
+        [](const TrianglePoint& other, Face, const TrianglePoint& best, Face) {
+          return other.squared_distance < best.squared_distance;
         });
-      }
-    }
-    return {at, best.barycentric};
+    return {face, point.barycentric};
   }
 
  private:

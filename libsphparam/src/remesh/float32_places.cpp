@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "remesh/walk_to_nearest.h"
 #include "sphparam/parallel.h"
 
 namespace sphparam {
@@ -155,23 +156,14 @@ class Facets32 {
       : topology_(topology), sphere_(sphere) {}
 
   SurfacePoint nearest(const Vector& p, Face start) const {
-    Place best = on_face(p, start);
-    Face at = start;
-    for (Face from = -1; from != at;) {
-      from = at;
-      for (int k = 0; k < 3; ++k) {
-        topology_.for_each_outgoing(topology_.vertex(from, k), [&](Halfedge h) {
-          const Face face = Topology::face(h);
-          const Place other = on_face(p, face);
-          const bool is_as_near = other.distance == best.distance && face < at;
-          if (!(other.distance < best.distance) && !is_as_near) return;
-          best = other;
-          at = face;
+    const auto [face, place] = walk_to_nearest(
+        topology_, start, [&](Face f) { return on_face(p, f); },
+        [](const Place& other, Face other_face, const Place& best, Face best_face) {
+          return other.distance < best.distance ||
+                 (other.distance == best.distance && other_face < best_face);
         });
-      }
-    }
-    return {at, Vector3(static_cast<double>(best.weights[0]), static_cast<double>(best.weights[1]),
-                        static_cast<double>(best.weights[2]))};
+    const Eigen::Vector3f weights(place.weights.data());
+    return {face, weights.cast<double>()};
   }
 
  private:

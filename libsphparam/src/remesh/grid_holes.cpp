@@ -27,6 +27,14 @@ UnionFind pieces_of(const Topology& topology, const FillerMarks& fillers) {
   return pieces;
 }
 
+/// How many faces of each piece are fillers, or are not.
+std::vector<int> sizes_of(UnionFind& pieces, const FillerMarks& fillers, bool of_fillers) {
+  std::vector<int> sizes(fillers.size(), 0);
+  for (Face f = 0; f < std::ssize(fillers); ++f)
+    sizes[at(pieces.find(f))] += (fillers[at(f)] != 0) == of_fillers;
+  return sizes;
+}
+
 /// Of fillers about a vertex, how many fans apart.
 int fans_at(const Topology& grid, const FillerMarks& fillers, Vertex v) {
   int fans = 0;
@@ -60,8 +68,7 @@ void join_fans(const Topology& grid, const Triangulation& cut, FillerMarks& fill
 
 void keep_largest_surface(const Topology& grid, FillerMarks& fillers) {
   UnionFind pieces = pieces_of(grid, fillers);
-  std::vector<int> size(fillers.size(), 0);
-  for (Face f = 0; f < grid.face_count(); ++f) size[at(pieces.find(f))] += fillers[at(f)] ? 0 : 1;
+  const std::vector<int> size = sizes_of(pieces, fillers, false);
   const auto largest = std::max_element(size.begin(), size.end()) - size.begin();
   for (Face f = 0; f < grid.face_count(); ++f) {
     if (pieces.find(f) != largest) fillers[at(f)] = 1;
@@ -71,8 +78,7 @@ void keep_largest_surface(const Topology& grid, FillerMarks& fillers) {
 void keep_largest_of_holes(const Topology& grid, const std::vector<int>& holes,
                            FillerMarks& fillers) {
   UnionFind pieces = pieces_of(grid, fillers);
-  std::vector<int> size(fillers.size(), 0);
-  for (Face f = 0; f < grid.face_count(); ++f) size[at(pieces.find(f))] += fillers[at(f)] ? 1 : 0;
+  const std::vector<int> size = sizes_of(pieces, fillers, true);
   std::map<int, int> largest;  // of a hole: a piece
   for (Face f = 0; f < grid.face_count(); ++f) {
     if (!fillers[at(f)] || holes[at(f)] < 0) continue;

@@ -260,40 +260,48 @@ class Transfer {
     mark_fillers(file, fillers_on_grid(cut));
   }
 
-  /// Faces of which some point that is looked at lies on a filler: corners, and three a side. One
-  /// that reaches over a boundary, or across a slit, would be no surface.
-  FillerMarks fillers_on_grid(const Triangulation& cut) const {
-    const FillerMarks fillers = fillers_of(source_);
-    if (fillers.empty()) return {};
-    constexpr int looks = 4;  // a side, from its first corner
+  /// Directions of so many points a side, from its first corner on: corner by corner of all faces.
+  Points points_on_sides(int points) const {
     const Polygons& faces = grid_.faces;
-    Points directions(looks * std::ssize(faces.corners), 3);
+    Points directions(points * std::ssize(faces.corners), 3);
     Eigen::Index row = 0;
     for (std::int64_t f = 0; f < faces.count(); ++f) {
       const auto corners = faces.polygon(f);
       for (size_t k = 0; k < corners.size(); ++k) {
         const auto from = grid_.directions.row(corners[k]);
         const auto to = grid_.directions.row(corners[(k + 1) % corners.size()]);
-        for (int i = 0; i < looks; ++i) {
-          const double along = static_cast<double>(i) / looks;
+        for (int i = 0; i < points; ++i) {
+          const double along = static_cast<double>(i) / points;
           directions.row(row++) = ((1 - along) * from + along * to).normalized();
         }
       }
     }
-    const auto places = locate(locator_, directions, "locate holes", options_);
+    return directions;
+  }
+
+  /// By corner of the grid's faces: the hole that the side after it comes upon, −1 for none.
+  std::vector<int> holes_on_sides(const FillerMarks& fillers) const {
+    constexpr int looks = 4;
+    const auto places = locate(locator_, points_on_sides(looks), "locate holes", options_);
     const std::vector<int> holes = holes_of(topology_, fillers);
-    const auto hole_at = [&](int corner) {
-      int hole = -1;
-      for (int i = 0; i < looks; ++i) {
-        hole = std::max(hole, holes[static_cast<size_t>(places[looks * at(corner) + at(i)].face)]);
-      }
-      return hole;
-    };
+    std::vector<int> found(places.size() / looks, -1);
+    for (size_t i = 0; i < places.size(); ++i)
+      found[i / looks] = std::max(found[i / looks], holes[static_cast<size_t>(places[i].face)]);
+    return found;
+  }
+
+  /// Faces of which some point that is looked at lies on a filler: corners, and three a side. One
+  /// that reaches over a boundary, or across a slit, would be no surface.
+  FillerMarks fillers_on_grid(const Triangulation& cut) const {
+    const FillerMarks fillers = fillers_of(source_);
+    if (fillers.empty()) return {};
+    const Polygons& faces = grid_.faces;
+    const std::vector<int> holes = holes_on_sides(fillers);
     std::vector<int> marks(at(static_cast<int>(cut.triangles.rows())), -1);
     for (size_t t = 0; t < marks.size(); ++t) {
       const auto p = static_cast<size_t>(cut.polygon_of(static_cast<std::int64_t>(t)));
       for (int i = faces.starts[p]; i < faces.starts[p + 1]; ++i) {
-        marks[t] = std::max(marks[t], hole_at(i));
+        marks[t] = std::max(marks[t], holes[at(i)]);
       }
     }
     const int vertices = static_cast<int>(grid_.directions.rows());

@@ -52,72 +52,99 @@ void place_rims(const Polyhedron& polyhedron, const EdgeNumbers& edges, int n, P
   }
 }
 
+/// The corners of a polyhedron's face, and the number of the first point within it, where each has
+/// `within` of them.
+struct LatticeFace {
+  LatticeFace(const Polyhedron& polyhedron, const EdgeNumbers& edges, int n, int face, int within)
+      : polyhedron_(polyhedron),
+        edges_(edges),
+        corner_(&polyhedron.faces[static_cast<size_t>(polyhedron.degree * face)]),
+        n_(n),
+        first_(edges.end() + face * within) {}
+
+  /// The point `step` steps from corner a to corner b.
+  int on_edge(int a, int b, int step) const { return edges_.at(corner_[a], corner_[b], step); }
+  const Vector3& corner(int k) const {
+    return polyhedron_.corners[static_cast<size_t>(corner_[k])];
+  }
+
+ protected:
+  const Polyhedron& polyhedron_;
+  const EdgeNumbers& edges_;
+  const int* corner_;
+  int n_, first_;
+};
+
+/// Row i has i + 1 points, from the edge (0, 1) to the edge (0, 2).
+struct LatticeTriangle : LatticeFace {
+  using LatticeFace::LatticeFace;
+  static int within(int n) { return (n - 1) * (n - 2) / 2; }
+
+  int at(int i, int j) const {
+    if (j == 0) return on_edge(0, 1, i);
+    if (j == i) return on_edge(0, 2, i);
+    if (i == n_) return on_edge(1, 2, j);
+    return first_ + (i - 1) * (i - 2) / 2 + j - 1;
+  }
+  Vector3 point(int i, int j) const {
+    return (n_ - i) * corner(0) + (i - j) * corner(1) + j * corner(2);
+  }
+};
+
+/// i runs along the edge (0, 1), j along the edge (0, 3).
+struct LatticeSquare : LatticeFace {
+  using LatticeFace::LatticeFace;
+  static int within(int n) { return (n - 1) * (n - 1); }
+
+  int at(int i, int j) const {
+    if (j == 0) return on_edge(0, 1, i);
+    if (i == n_) return on_edge(1, 2, j);
+    if (j == n_) return on_edge(3, 2, i);
+    if (i == 0) return on_edge(0, 3, j);
+    return first_ + (j - 1) * (n_ - 1) + i - 1;
+  }
+  Vector3 point(int i, int j) const {
+    return n_ * corner(0) + i * (corner(1) - corner(0)) + j * (corner(3) - corner(0));
+  }
+};
+
+void add(const LatticeTriangle& side, int n, SphereGrid& grid) {
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j <= i; ++j) {
+      if (j > 0 && j < i) grid.directions.row(side.at(i, j)) = side.point(i, j);
+      add_face(grid.faces, {side.at(i, j), side.at(i + 1, j), side.at(i + 1, j + 1)});
+      if (j < i) add_face(grid.faces, {side.at(i, j), side.at(i + 1, j + 1), side.at(i, j + 1)});
+    }
+  }
+}
+
+void add(const LatticeSquare& side, int n, SphereGrid& grid) {
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < n; ++i) {
+      if (i > 0 && j > 0) grid.directions.row(side.at(i, j)) = side.point(i, j);
+      add_face(grid.faces,
+               {side.at(i, j), side.at(i + 1, j), side.at(i + 1, j + 1), side.at(i, j + 1)});
+    }
+  }
+}
+
+template <class Side>
+SphereGrid cut(const Polyhedron& polyhedron, int n) {
+  const EdgeNumbers edges(polyhedron, n);
+  const int sides = static_cast<int>(polyhedron.faces.size()) / polyhedron.degree;
+  SphereGrid grid;
+  grid.directions.resize(edges.end() + sides * Side::within(n), 3);
+  place_rims(polyhedron, edges, n, grid.directions);
+  for (int f = 0; f < sides; ++f) add(Side(polyhedron, edges, n, f, Side::within(n)), n, grid);
+  return grid;
+}
+
 }  // namespace
 
 SphereGrid cut_triangles(const Polyhedron& polyhedron, int n) {
-  const EdgeNumbers edges(polyhedron, n);
-  const int face_count = static_cast<int>(polyhedron.faces.size() / 3);
-  const int within = (n - 1) * (n - 2) / 2;  // of one face
-  SphereGrid grid;
-  grid.directions.resize(edges.end() + face_count * within, 3);
-  place_rims(polyhedron, edges, n, grid.directions);
-  for (int f = 0; f < face_count; ++f) {
-    const int* const corner = &polyhedron.faces[static_cast<size_t>(3 * f)];
-    const int first = edges.end() + f * within;
-    // Row i has i + 1 points, from the edge (0, 1) to the edge (0, 2).
-    const auto at = [&](int i, int j) {
-      if (j == 0) return edges.at(corner[0], corner[1], i);
-      if (j == i) return edges.at(corner[0], corner[2], i);
-      if (i == n) return edges.at(corner[1], corner[2], j);
-      return first + (i - 1) * (i - 2) / 2 + j - 1;
-    };
-    const auto point = [&](int k) -> const Vector3& {
-      return polyhedron.corners[static_cast<size_t>(corner[k])];
-    };
-    for (int i = 0; i < n; ++i) {
-      for (int j = 0; j <= i; ++j) {
-        if (j > 0 && j < i) {
-          grid.directions.row(at(i, j)) = (n - i) * point(0) + (i - j) * point(1) + j * point(2);
-        }
-        add_face(grid.faces, {at(i, j), at(i + 1, j), at(i + 1, j + 1)});
-        if (j < i) add_face(grid.faces, {at(i, j), at(i + 1, j + 1), at(i, j + 1)});
-      }
-    }
-  }
-  return grid;
+  return cut<LatticeTriangle>(polyhedron, n);
 }
 
-SphereGrid cut_cube(int n) {
-  const Polyhedron box = cube();
-  const EdgeNumbers edges(box, n);
-  const int within = (n - 1) * (n - 1);
-  SphereGrid grid;
-  grid.directions.resize(edges.end() + 6 * within, 3);
-  place_rims(box, edges, n, grid.directions);
-  for (int side = 0; side < 6; ++side) {
-    const int* const corner = &box.faces[static_cast<size_t>(4 * side)];
-    const int first = edges.end() + side * within;
-    const auto at = [&](int i, int j) {
-      if (j == 0) return edges.at(corner[0], corner[1], i);
-      if (i == n) return edges.at(corner[1], corner[2], j);
-      if (j == n) return edges.at(corner[3], corner[2], i);
-      if (i == 0) return edges.at(corner[0], corner[3], j);
-      return first + (j - 1) * (n - 1) + i - 1;
-    };
-    const auto point = [&](int k) -> const Vector3& {
-      return box.corners[static_cast<size_t>(corner[k])];
-    };
-    for (int j = 0; j < n; ++j) {
-      for (int i = 0; i < n; ++i) {
-        if (i > 0 && j > 0) {
-          grid.directions.row(at(i, j)) =
-              n * point(0) + i * (point(1) - point(0)) + j * (point(3) - point(0));
-        }
-        add_face(grid.faces, {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
-      }
-    }
-  }
-  return grid;
-}
+SphereGrid cut_cube(int n) { return cut<LatticeSquare>(cube(), n); }
 
 }  // namespace sphparam
