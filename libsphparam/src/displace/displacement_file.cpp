@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "number_text.h"
+#include "remesh/image_file.h"
 
 namespace sphparam {
 
@@ -23,10 +24,6 @@ constexpr char about[] =
 constexpr char recipe[] =
     "subdivide the control mesh by its scheme to the limit surface, its texture coordinates "
     "straight over each face (not smoothed); displace along normals by (value - midlevel) * scale";
-
-const char* name_of(ImageDepth depth) {
-  return depth == ImageDepth::Half ? "half" : depth == ImageDepth::Float ? "float" : "u16";
-}
 
 double number_of(const ImageTexts& texts, const std::string& key, const std::string& file) {
   for (const auto& [name, text] : texts) {

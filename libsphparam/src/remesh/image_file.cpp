@@ -7,6 +7,10 @@
 
 namespace sphparam {
 
+const char* name_of(ImageDepth depth) {
+  return depth == ImageDepth::Half ? "half" : depth == ImageDepth::Float ? "float" : "u16";
+}
+
 ImageDepth depth_in(const std::string& path, std::optional<ImageDepth> wanted) {
   const std::string extension = extension_of(path);
   const bool png = extension == ".png";

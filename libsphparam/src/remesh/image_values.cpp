@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "number_text.h"
+#include "remesh/image_file.h"
 
 namespace sphparam {
 
@@ -35,10 +36,6 @@ double to_float(double value) {
     throw std::range_error("float has no number as large as " + std::to_string(value));
   }
   return static_cast<double>(static_cast<float>(value));
-}
-
-const char* name_of(ImageDepth depth) {
-  return depth == ImageDepth::Half ? "half" : depth == ImageDepth::Float ? "float" : "u16";
 }
 
 struct Range {
@@ -134,9 +131,8 @@ GeometryImage make_geometry_image(const GridSpec& spec, const Points& directions
   const ImageLayout layout = image_layout(spec, directions);
   const auto width = static_cast<size_t>(channels);
   const Range range = range_of(values, width);
-  GeometryImage result{
-      Image(layout.width, layout.height, channels),
-      {{"sphparam:grid", sphparam::name_of(spec)}, {"sphparam:depth", name_of(depth)}}};
+  GeometryImage result{Image(layout.width, layout.height, channels),
+                       {{"sphparam:grid", name_of(spec)}, {"sphparam:depth", name_of(depth)}}};
   for (size_t i = 0; i < layout.vertex.size(); ++i) {
     for (size_t k = 0; k < width; ++k) {
       const double value = values[static_cast<size_t>(layout.vertex[i]) * width + k];
