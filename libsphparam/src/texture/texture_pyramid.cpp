@@ -31,9 +31,14 @@ constexpr std::int64_t grain = 16;       // rows
 
 std::uint16_t stored(float x) { return static_cast<std::uint16_t>(std::lround(x * full)); }
 
+Level with_room(int width, int height) {
+  Level level{width, height, {}};
+  level.texels.resize(4 * static_cast<size_t>(width) * static_cast<size_t>(height));
+  return level;
+}
+
 Level finest(const Image& image, bool linear, int threads) {
-  Level level{image.width, image.height, {}};
-  level.texels.resize(4 * static_cast<size_t>(image.width) * static_cast<size_t>(image.height));
+  Level level = with_room(image.width, image.height);
   const SrgbCurves& curves = SrgbCurves::get();
   const auto colour = [&](float x) {
     return stored(linear ? std::clamp(x, 0.0F, 1.0F) : curves.to_linear(x));
@@ -76,26 +81,38 @@ class Weights {
 struct BoxMean {
   Lanes seen{}, plain{};  // sums
   float weight = 0;       // of what is seen
+  bool all_seen = true;
 
   void add(float share, float weight_of, const Lanes& texel) {
     seen += share * weight_of * texel;
     plain += share * texel;
     weight += share * weight_of;
+    all_seen = all_seen && weight_of == 1;
   }
   /// Where all of a box is seen the sum is the mean: shares are 1 together.
-  Lanes mean(bool all_seen) const { return all_seen || weight == 0 ? plain : seen / weight; }
+  Lanes mean() const { return all_seen || weight == 0 ? plain : seen / weight; }
+  float mean_weight() const { return all_seen ? 1 : weight; }
 };
+
+BoxMean box_mean(const Level& fine, const Weights& weights, const BoxShares& columns,
+                 const BoxShares& rows) {
+  BoxMean box;
+  for (size_t j = 0; j < 4; ++j) {
+    for (size_t i = 0; i < 4 && rows.weights[j] > 0; ++i) {
+      const float share = rows.weights[j] * columns.weights[i];
+      if (share == 0) continue;
+      const size_t texel = (static_cast<size_t>(rows.first) + j) * static_cast<size_t>(fine.width) +
+                           static_cast<size_t>(columns.first) + i;
+      box.add(share, weights[texel], texel_at(fine, texel));
+    }
+  }
+  return box;
+}
 
 struct WeightedLevel {
   Level level;
   Weights weights;
 };
-
-Level with_room(int width, int height) {
-  Level level{width, height, {}};
-  level.texels.resize(4 * static_cast<size_t>(width) * static_cast<size_t>(height));
-  return level;
-}
 
 WeightedLevel halved(const Level& fine, const Weights& weights, int threads) {
   Level coarse = with_room(std::max(1, fine.width / 2), std::max(1, fine.height / 2));
@@ -105,23 +122,10 @@ WeightedLevel halved(const Level& fine, const Weights& weights, int threads) {
   parallel_for(coarse.height, grain, threads, [&](std::int64_t first, std::int64_t last) {
     for (auto y = static_cast<size_t>(first); y < static_cast<size_t>(last); ++y) {
       for (size_t x = 0; x < columns.size(); ++x) {
-        BoxMean box;
-        bool all_seen = true;
-        for (size_t j = 0; j < 4; ++j) {
-          for (size_t i = 0; i < 4 && rows[y].weights[j] > 0; ++i) {
-            const float share = rows[y].weights[j] * columns[x].weights[i];
-            if (share == 0) continue;
-            const size_t texel =
-                (static_cast<size_t>(rows[y].first) + j) * static_cast<size_t>(fine.width) +
-                static_cast<size_t>(columns[x].first) + i;
-            const float weight = weights[texel];
-            all_seen = all_seen && weight == 1;
-            box.add(share, weight, texel_at(fine, texel));
-          }
-        }
+        const BoxMean box = box_mean(fine, weights, columns[x], rows[y]);
         const size_t texel = y * columns.size() + x;
-        coarse_weights.of(texel) = all_seen ? 1 : box.weight;
-        const Lanes mean = box.mean(all_seen);
+        coarse_weights.of(texel) = box.mean_weight();
+        const Lanes mean = box.mean();
         for (size_t c = 0; c < 4; ++c) coarse.texels[4 * texel + c] = stored(mean[c] / full);
       }
     }
