@@ -131,6 +131,7 @@ void tell(const RemadeAsset& made, const std::string& folder, TextureFormat text
   for (const std::string& line : made.whole.details) session.console.detail("  " + line);
   if (made.baked.projection)
     session.console.say("  " + line_of(*made.baked.projection, {.source_name = "the asset"}));
+  if (made.parts.size() > 1) session.console.detail("  " + line_of(made.parts));
   if (made.whole.by == WholeBy::Repair && made.whole.area_kept < 1)
     session.console.say("  with --keep 1 the parts that it dropped stay, and all is wrapped");
   if (made.whole.by == WholeBy::Wrap)

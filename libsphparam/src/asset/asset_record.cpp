@@ -1,5 +1,6 @@
 // What became of an asset, as JSON and in words.
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -39,6 +40,18 @@ Json mending_json(const WholeSurface& whole) {
   return repairs;
 }
 
+/// Assets may have thousands.
+Json parts_json(const std::vector<PartTexels>& parts) {
+  constexpr size_t most = 32;
+  Json largest = Json::array();
+  for (size_t i = 0; i < std::min(most, parts.size()); ++i)
+    largest.push_back({{"material", parts[i].material.empty() ? Json() : Json(parts[i].material)},
+                       {"triangles", parts[i].triangles},
+                       {"area", parts[i].area},
+                       {"texels", parts[i].texels}});
+  return {{"count", parts.size()}, {"largest", largest}};
+}
+
 Json stages(const std::vector<std::pair<std::string, double>>& seconds) {
   Json all = Json::object();
   for (const auto& [stage, time] : seconds) all[stage] = time;
@@ -54,6 +67,17 @@ std::string verdict_of(const RemadeAsset& remade) {
   if (whole.by == WholeBy::Wrap) return "Wrapped in one closed surface" + certified;
   return "Mended to one closed surface with " + percent(whole.area_kept) + " of the area" +
          certified;
+}
+
+std::string line_of(const std::vector<PartTexels>& parts) {
+  constexpr size_t most = 5;
+  std::vector<std::string> shares;
+  for (size_t i = 0; i < std::min(most, parts.size()); ++i)
+    shares.push_back(percent(parts[i].texels));
+  const auto none = std::ranges::count(parts, 0, &PartTexels::texels);
+  return "texels of its " + counted(std::ssize(parts), "part") + ": " + joined(shares) +
+         (parts.size() > most ? ", …" : "") +
+         (none > 0 ? "; " + counted(none, "has none", "have none") : "");
 }
 
 std::string to_json(const MeshSource& asset, const RemadeAsset& remade) {
@@ -78,6 +102,7 @@ std::string to_json(const MeshSource& asset, const RemadeAsset& remade) {
        {"chart", {{"triangles", remade.chart.triangles}, {"vertices", remade.chart.vertices}}},
        {"images", images_json(remade.baked.images)},
        {"textures", textures_json(remade.textures)},
+       {"parts", parts_json(remade.parts)},
        {"from", projection_json(remade.baked.projection)},
        {"folds_as_stored", remade.chart.stored.folded.size()},
        {"warnings", remade.warnings},

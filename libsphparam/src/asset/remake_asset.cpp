@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "asset/asset_page.h"
+#include "asset/part_texels.h"
 #include "asset/soup.h"
 #include "io/attributes/appearance.h"
 #include "io/attributes/left_out_image.h"
@@ -110,9 +111,11 @@ class Remaker {
     return longest_side(remade_.whole.mapped.mesh()) / options_.whole.resolution;
   }
 
+  /// Viewers show 8 bits, also of occlusion.
   BakeSettings bake_settings() const {
     BakeSettings settings{.width = options_.width,
                           .samples = options_.samples,
+                          .depth = SampleType::Uint8,
                           .source_name = display_name(asset_.path),
                           .threads = options_.whole.threads,
                           .progress = options_.whole.progress};
@@ -126,6 +129,7 @@ class Remaker {
     for (const std::string& field : fields())
       requests.push_back({field, stem_ + "_" + field + ".png"});
     remade_.baked = bake(remade_.whole.mapped, requests, bake_settings(), files_);
+    remade_.parts = texels_of_parts(remade_.whole.mapped, bake_settings());
     append(remade_.baked.warnings);
     tell_other_occlusion();
     for (const BakeRequest& request : requests) remade_.files.emplace_back(request.path, 0);

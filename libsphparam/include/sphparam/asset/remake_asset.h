@@ -26,6 +26,13 @@ struct RemakeOptions {
   std::vector<std::pair<std::string, std::string>> facts = {};  // for the foot of the page
 };
 
+/// A part of an asset, what hangs together, and what of the images it has.
+struct PartTexels {
+  std::string material = {};  // of its first triangle; empty: none
+  long triangles = 0;
+  double area = 0, texels = 0;  // shares of all
+};
+
 /// What became of an asset.
 struct RemadeAsset {
   WholeSurface whole;
@@ -34,6 +41,7 @@ struct RemadeAsset {
   WrittenFiles files = {};                    // names in the folder, and sizes where they are known
   std::string sizes = {};                     // of the .glb and its images, in words for people
   std::vector<TextureFigures> textures = {};  // what became of these
+  std::vector<PartTexels> parts = {};         // of what was baked, that with most texels first
   std::vector<std::string> warnings = {};
   std::vector<std::string> remarks = {};                     // on images of one colour
   bool viewer_is_missing = false;                            // the page has pictures only
@@ -52,6 +60,9 @@ RemadeAsset remake_asset(const MeshSource& asset, const std::string& folder,
 
 /// "One closed surface as it was, certified one-to-one", in words for people.
 std::string verdict_of(const RemadeAsset& remade);
+
+/// "texels of its 3 parts: 71 %, 20 %, 9 %", the first five.
+std::string line_of(const std::vector<PartTexels>& parts);
 
 /// As `sphparam asset --json` tells it.
 std::string to_json(const MeshSource& asset, const RemadeAsset& remade);
