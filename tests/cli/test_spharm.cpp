@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "program.h"
@@ -269,6 +270,86 @@ TEST_CASE("spharm: --align gives a turned mesh the same coefficients, and writes
   CHECK(sphparam_program({"spharm", path, "--align", "--degree", "0"}).code == 2);
   CHECK(sphparam_program({"spharm", path, "--align", "--shadr", folder / "x.sha"}).code == 2);
   CHECK(sphparam_program({"spharm", path, "--flip-template", folder / "t.coef"}).code == 2);
+}
+
+TEST_CASE("spharm: a surface on a grid, of a mesh and of its coefficients in a file") {
+  const Folder folder;
+  MeshFile file;
+  file.mesh = ellipsoid(icosphere(3));
+  const auto count = size_t(file.mesh.vertex_count());
+  file.set_vertex_property({"height", ScalarType::Float64, std::vector<double>(count, 5)});
+  file.set_vertex_property({"label", ScalarType::Int32, std::vector<double>(count, 1)});
+  const std::string mesh = folder / "egg.ply", ball = folder / "ball.obj";
+  write_mesh(mesh, file);
+  write_bytes(ball, obj_text(icosphere(3)));
+  const auto run = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), "spharm");
+    return sphparam_program(words);
+  };
+  const Ended first = run({mesh, "--sphere", ball, "--degree", "4", "--scalar", "height", "--json",
+                           folder / "egg.json", "--coef", folder / "egg.coef", "--grid", "cube:6",
+                           "--reconstruct", folder / "one.sph.ply"});
+  INFO(first.err);
+  REQUIRE(first.code == 0);
+  CHECK_THAT(first.err,
+             Contains("one.sph.ply: not carried: label: on a grid is what was expanded"));
+  const std::vector<std::string> onto{"--grid", "cube:6", "--reconstruct"};
+  const auto made = [&](const std::string& from, std::vector<std::string> more,
+                        const std::string& to) {
+    more.insert(more.begin(), folder / from);
+    more.insert(more.end(), onto.begin(), onto.end());
+    more.push_back(folder / to);
+    const Ended ended = run(more);
+    INFO(ended.err);
+    REQUIRE(ended.code == 0);
+    CHECK_THAT(ended.err, Contains(" on cube:6, certified one-to-one"));
+    CHECK(sphparam_program({"verify", folder / to}).code == 0);
+    return read_mesh(std::string(folder / to));
+  };
+  const MeshFile one = read_mesh(std::string(folder / "one.sph.ply")),
+                 two = made("egg.json", {}, "two.sph.ply"),
+                 three = made("egg.coef", {"--degree", "1"}, "three.sph.ply");
+  CHECK(one.mesh.vertex_count() == 218);
+  CHECK(bytes_of(folder / "one.sph.ply") == bytes_of(folder / "two.sph.ply"));
+  CHECK(two.polygons == 216);
+  CHECK((one.mesh.positions - three.mesh.positions).cwiseAbs().maxCoeff() < 1e-8);
+  CHECK_FALSE(three.find_vertex_property("height"));
+  for (Vertex v = 0; v < 218; ++v) {
+    CHECK(std::abs(two.find_vertex_property("height")->values[size_t(v)] - 5) < 1e-9);
+    for (int k = 0; k < 3; ++k) {
+      const double ray = two.find_vertex_property(std::string("s") + "xyz"[k])->values[size_t(v)];
+      CHECK(std::abs(three.mesh.positions(v, k) - Vector3(2, 1, 0.5)[k] * ray) < 1e-8);
+    }
+  }
+  // Other vertices, without a mesh of ours.
+  REQUIRE(run({folder / "egg.json", "--grid", "like:" + ball, "--reconstruct", folder / "l.ply"})
+              .code == 0);
+  CHECK((read_mesh(std::string(folder / "l.ply")).mesh.positions - file.mesh.positions)
+            .cwiseAbs()
+            .maxCoeff() < 1e-8);
+  const auto refused = [&](std::vector<std::string> words, int code, const std::string& why) {
+    const Ended ended = run(words);
+    INFO(ended.err);
+    CHECK(ended.code == code);
+    CHECK_THAT(ended.err, Contains(why));
+  };
+  const std::string json = folder / "egg.json", out = folder / "out.ply";
+  refused({json}, 2, "egg.json has coefficients: --grid GRID --reconstruct FILE makes a surface");
+  refused({json, "--grid", "ico:2"}, 2, "--grid is of the surface that --reconstruct writes");
+  refused({json, "--reconstruct", out, "--grid", "like:"}, 2, "--grid like: names no mesh");
+  refused({json, "--reconstruct", out, "--grid", "ball:2"}, 2, "--grid ball:2: expected ico:L");
+  refused({json, "--reconstruct", out, "--grid", "like:" + (folder / "nowhere.ply")}, 3, "nowhere");
+  refused({json, "--reconstruct", out, "--grid", "ico:2", "--degree", "5"}, 2,
+          "--degree: egg.json has coefficients up to degree 4");
+  refused({json, "--reconstruct", out, "--grid", "ico:2", "--sphere", ball}, 2,
+          "--sphere is of a mesh: egg.json has its coefficients");
+  refused({json, "--reconstruct", out, "--grid", "ico:2", "--json", "-"}, 2, "--json is of a mesh");
+  refused({json, "--reconstruct", out, "--grid", "ico:2", "--max-hole", "3"}, 2,
+          "repairs are of a mesh");
+  write_bytes(folder / "bad.json", "{}");
+  refused({folder / "bad.json", "--reconstruct", out, "--grid", "ico:2"}, 3,
+          "bad.json: these are no coefficients");
+  CHECK_FALSE(std::filesystem::exists(out));
 }
 
 TEST_CASE("spharm: what makes no sense is refused, and nothing is written") {

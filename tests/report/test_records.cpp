@@ -357,6 +357,70 @@ TEST_CASE("harmonics_record: 4π-normalised coefficients, and SHADR of the radiu
   CHECK_THROWS_AS(to_shadr(expansion, "gravity"), std::invalid_argument);
 }
 
+TEST_CASE("harmonics_record: what was told is read again, in either normalisation") {
+  HarmonicExpansion expansion =
+      expand_in_harmonics(ball(), {}, {.degree = 3}, Vector3(0.1, 0.2, 0.3));
+  const Provenance map = {{"method", "radial"}, {"upright", "+y"}};
+  const HarmonicExpansion same = parse_harmonics(to_json(expansion, "ball.ply", map), "b.json");
+  CHECK(same.functions == expansion.functions);
+  CHECK(same.fit.coefficients == expansion.fit.coefficients);
+  CHECK(same.map == map);
+  CHECK(same.aligned == HarmonicAlignment::None);
+  CHECK(same.fit.rms.size() == 0);
+  expansion.normalisation = HarmonicNormalisation::FourPi;
+  const HarmonicExpansion other = parse_harmonics(to_json(expansion, "ball.ply", map), "b.json");
+  CHECK(other.normalisation == HarmonicNormalisation::FourPi);
+  CHECK((other.fit.coefficients - expansion.fit.coefficients).cwiseAbs().maxCoeff() < 1e-15);
+  // Of it nothing is told that is not known; what is comes back again.
+  const std::string again = to_json(same, "ball.ply", same.map);
+  CHECK(keys_of(Json::parse(again)) ==
+        "sphparam,mesh,map,degree,basis,first_order_ellipsoid,functions");
+  CHECK(parse_harmonics(again, "b.json").fit.coefficients == same.fit.coefficients);
+  const HarmonicExpansion coef =
+      parse_harmonics("{ 4,{1, 2, 3},\n{4, 5, 6},\n{0, 0, 0},\n{0, 0, 0}}", "b.COEF");
+  CHECK(coef.functions == std::vector<std::string>{"x", "y", "z"});
+  CHECK(coef.fit.coefficients.row(2) == Eigen::RowVector3d(4, 5, 6));
+}
+
+TEST_CASE("harmonics_record: of what was turned its place is not known") {
+  HarmonicExpansion expansion = expand_in_harmonics(ball(), {}, {.degree = 2});
+  for (const auto what : {HarmonicAlignment::Sphere, HarmonicAlignment::SphereAndSurface}) {
+    HarmonicExpansion turned = expansion;
+    align(turned, ball(), what);
+    const HarmonicExpansion read =
+        parse_harmonics(to_json(turned, "b", {{"method", "m"}, {"upright", "+y"}}), "b.json");
+    CHECK(read.aligned == what);
+    CHECK(read.map == Provenance{{"method", "m"}});
+  }
+}
+
+TEST_CASE("harmonics_record: what is no record is refused, and says why") {
+  const std::string good = to_json(expand_in_harmonics(ball(), {}, {.degree = 1}), "b", {});
+  const auto without = [&](const std::string& old, const std::string& now) {
+    std::string text = good;
+    text.replace(text.find(old), old.size(), now);
+    return text;
+  };
+  const auto refused = [](const std::string& text, const std::string& why) {
+    CHECK_THROWS_WITH(parse_harmonics(text, "b.json"), StartsWith("b.json: ") && Contains(why));
+    CHECK_THROWS_AS(parse_harmonics(text, "b.json"), ReadError);
+  };
+  for (const char* text : {"", "ply", "{", "[]", "3", "{\"functions\": 3}", "{\"functions\": [1]}"})
+    refused(text, "as `sphparam spharm --json` writes them");
+  refused("{\"functions\": []}", "no functions x, y and z");
+  refused(without("\"name\": \"y\"", "\"name\": \"x\""), "each once, not x, x");
+  refused(without("\"name\": \"y\"", "\"name\": \"z\""), "each once, not x, z");
+  refused(without("\"basis\": \"real", "\"basis\": \"complex"),
+          "its basis is none of ours: complex");
+  refused(without("\"coefficients\": [", "\"coefficients\": [0,"), "not as many coefficients each");
+  refused(without("\"coefficients\": [", "\"coefficients\": [null,"), "must be number");
+  refused(without("\"coefficients\": [", "\"coefficients\": [1e999,"), "number overflow");
+  std::string nine = good;
+  for (size_t at = 0; (at = nine.find("\"coefficients\": [", at)) != std::string::npos; at += 20)
+    nine.insert(at + 17, "0,");
+  refused(nine, "5 coefficients are no (L + 1)²");
+}
+
 TEST_CASE("harmonics_record: for people, what is left in a line, and the ellipsoid") {
   const MappedMesh mapped = ball();
   const HarmonicExpansion expansion = expand_in_harmonics(mapped, {}, {.degree = 2});
@@ -378,7 +442,8 @@ TEST_CASE("bake_record: images, and what they are for") {
   const BakeRecord record{"in/ball.ply", source, "", "", settings, baked, 3};
   const Json json = Json::parse(to_json(record));
   CHECK(keys_of(json) ==
-        "version,source,for,for_distance,width,height,samples,convention,refine_poles,images,"
+        "sphparam,command,source,for,for_distance,width,height,samples,convention,refine_poles,"
+        "images,"
         "warnings,seconds");
   CHECK(json["warnings"] == Json::array());
   baked.warnings = {"in another unit"};

@@ -2,9 +2,12 @@
 // description that a map to the sphere was first made for (Brechbühler, Gerig, Kübler 1995).
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
+#include <string_view>
 #include <utility>
 
+#include "arguments/limits.h"
 #include "arguments/mesh_names.h"
 #include "commands/command.h"
 #include "commands/sources.h"
@@ -12,11 +15,16 @@
 #include "number_text.h"
 #include "reports/told_fillers.h"
 #include "reports/told_losses.h"
+#include "sphparam/io/certified_files.h"
 #include "sphparam/io/coef_file.h"
+#include "sphparam/io/fillers.h"
+#include "sphparam/io/losses.h"
 #include "sphparam/io/mesh_writer.h"
+#include "sphparam/io/paths.h"
 #include "sphparam/io/planetocentric.h"
 #include "sphparam/measure/measurable.h"
 #include "sphparam/records/harmonics_record.h"
+#include "sphparam/remesh/harmonic_surface.h"
 
 namespace sphparam::cli {
 
@@ -31,27 +39,42 @@ constexpr char summary[] =
     "  sphparam spharm moon.sph.ply --degree 90 --scalar gravity --csv moon.csv\n"
     "  sphparam spharm eros.sph.ply --degree 24 --shadr eros.sha\n"
     "  sphparam spharm hippocampus.sph.ply --degree 15 --align --coef h_SPHARM_ellalign.coef\n"
+    "  sphparam spharm brain.json --degree 8 --grid ico:5 --reconstruct smooth.sph.ply\n"
     "\n"
     "The coefficients are of x, y and z, of the scalars named, and of the radius where it is\n"
     "wanted, in a real orthonormal basis or in that of geodesy.\n"
     "Least squares weigh each vertex by its solid angle on the sphere, that is, the part of the\n"
-    "sphere that it stands for; residuals are told so weighted, and plain.\n";
+    "sphere that it stands for; residuals are told so weighted, and plain.\n"
+    "Of coefficients in a file a surface is made on any grid, as of `remesh`.\n";
+
+constexpr int usual_degree = 20;
+constexpr std::string_view like_prefix = "like:";
 
 struct SpharmArguments : CommonArguments {
   std::string input;
   std::string sphere;  // empty: the mesh's own map; so are, not wanted:
   std::string csv;
   std::string reconstruction;
+  std::string grid;  // of it; empty: the mesh's own vertices
   std::string shadr;
   bool radius = false;
   std::optional<Vector3> centre;  // none: that of a radial map, else the origin
   std::string align, flips, coef;
   HarmonicNormalisation normalisation = HarmonicNormalisation::Orthonormal;
   Words scalars;
-  int degree = 20;
+  std::optional<int> degree;  // none: usual_degree, or all that there are in a file
   bool least_squares = true;
   RepairArguments repair;
+  std::function<bool(const std::string&)> given;
+
+  int wanted_degree() const { return degree.value_or(usual_degree); }
 };
+
+/// A file of coefficients, not of a mesh.
+bool has_coefficients(const std::string& path) {
+  const std::string kind = extension_of(path);
+  return kind == ".json" || kind == ".coef";
+}
 
 /// "nope; they have I, flow_0, flow_1", or what a vector's columns are called.
 std::string what_there_is(const MeshFile& file, const std::string& name) {
@@ -96,7 +119,7 @@ HarmonicExpansion expand(const SpharmArguments& arguments, const MappedMesh& map
   require_measurable(mapped.mesh());
   tell_counted_fillers(mapped, "these harmonics", session.console);
   HarmonicExpansion expansion = expand_in_harmonics(mapped, arguments.scalars,
-                                                    {.degree = arguments.degree,
+                                                    {.degree = arguments.wanted_degree(),
                                                      .least_squares = arguments.least_squares,
                                                      .threads = session.threads(),
                                                      .progress = session.progress()},
@@ -117,7 +140,7 @@ void require_alignment(const SpharmArguments& arguments) {
         "--align: with sphere and surface, --align; of the sphere alone, --align=sphere");
   if (arguments.align.empty() && !arguments.flips.empty())
     throw UsageMistake("--flip-template is for --align only");
-  if (!arguments.align.empty() && arguments.degree < 1)
+  if (!arguments.align.empty() && arguments.wanted_degree() < 1)
     throw UsageMistake("--align: degree 0 has no first-order ellipsoid; --degree 1 at least");
   if (!arguments.align.empty() && !arguments.shadr.empty())
     throw UsageMistake(
@@ -137,11 +160,44 @@ void align_as_asked(const SpharmArguments& arguments, const MappedMesh& mapped,
   if (expansion.alignment) session.warn(doubts_about(*expansion.alignment));
 }
 
+/// Where the file of a grid is named, it must be there.
+std::string file_of_grid(const SpharmArguments& arguments) {
+  return arguments.grid.starts_with(like_prefix) ? arguments.grid.substr(like_prefix.size()) : "";
+}
+
+void require_grid(const SpharmArguments& arguments) try {
+  if (arguments.grid.empty()) return;
+  if (arguments.reconstruction.empty())
+    throw UsageMistake("--grid is of the surface that --reconstruct writes");
+  if (!arguments.grid.starts_with(like_prefix)) parse_grid(arguments.grid);
+  if (arguments.grid == like_prefix)
+    throw UsageMistake("--grid like: names no mesh, as in like:MESH");
+} catch (const std::invalid_argument& error) {
+  throw UsageMistake("--grid " + arguments.grid + ": " + error.what());
+}
+
+/// Of coefficients there is no mesh: nothing is expanded, and there is no other grid than is named.
+void require_coefficients_alone(const SpharmArguments& arguments) {
+  const std::string name = display_name(arguments.input);
+  for (const char* option :
+       {"--sphere", "--scalar", "--fit", "--radius", "--centre", "--normalisation", "--align",
+        "--flip-template", "--json", "--csv", "--shadr", "--coef"})
+    if (arguments.given(option))
+      throw UsageMistake(std::string(option) + " is of a mesh: " + name + " has its coefficients");
+  if (!typed_again(arguments.repair).empty())
+    throw UsageMistake("repairs are of a mesh: " + name + " has its coefficients");
+  if (arguments.grid.empty() || arguments.reconstruction.empty())
+    throw UsageMistake(name +
+                       " has coefficients: --grid GRID --reconstruct FILE makes a surface "
+                       "of them");
+}
+
 void require_sensible(const SpharmArguments& arguments) {
   if (arguments.centre && !arguments.radius && arguments.shadr.empty()) {
     throw UsageMistake("--centre is for --radius and --shadr only");
   }
   require_alignment(arguments);
+  require_grid(arguments);
   require_mesh_name("--reconstruct", "the surface", arguments.reconstruction);
   check_places({{"--json", arguments.json},
                 {"--csv", arguments.csv},
@@ -153,7 +209,7 @@ void require_sensible(const SpharmArguments& arguments) {
 /// More coefficients than vertices: the residual at the vertices says nothing then.
 void warn_of_few_vertices(const SpharmArguments& arguments, const MeshFile& file,
                           Console& console) {
-  const std::int64_t count = std::int64_t{arguments.degree + 1} * (arguments.degree + 1);
+  const std::int64_t orders = arguments.wanted_degree() + 1, count = orders * orders;
   if (!arguments.least_squares || count <= file.mesh.vertex_count()) return;
   console.warning(std::to_string(count) + " coefficients for " +
                   std::to_string(file.mesh.vertex_count()) +
@@ -168,9 +224,75 @@ MappedMesh read_expanded(const SpharmArguments& arguments, Session& session) {
   return map_source(std::move(source), arguments.sphere, session, arguments.repair);
 }
 
+/// The surface on the grid that was asked for.
+MappedMesh on_grid(const SpharmArguments& arguments, const HarmonicExpansion& expansion,
+                   Session& session) {
+  const std::string like = file_of_grid(arguments);
+  SphereGrid grid = like.empty()
+                        ? make_grid(parse_grid(arguments.grid), {.threads = session.threads()})
+                        : load_grid(like, input_limits(), session.threads());
+  if (!grid.warning.empty()) session.warn({grid.warning});
+  return harmonic_surface(expansion, std::move(grid), session.threads());
+}
+
+void add_on_grid(const SpharmArguments& arguments, const HarmonicExpansion& expansion,
+                 Session& session) {
+  const MappedMesh surface = on_grid(arguments, expansion, session);
+  tell_losses(arguments.reconstruction,
+              add_mapped(session.files, arguments.reconstruction, surface, session.threads()),
+              session.console);
+}
+
+/// What the mesh has besides what was expanded.
+Words left_out_on_grid(const MappedMesh& mapped, const HarmonicExpansion& expansion) {
+  Words names, losses;
+  Words kept = expansion.functions;
+  kept.insert(kept.end(), {"source_vertex", "source_face", filler_property});  // of this file alone
+  const auto add = [&](const std::vector<Property>& properties) {
+    for (const Property& property : properties)
+      if (std::ranges::find(kept, property.name) == kept.end()) names.push_back(property.name);
+  };
+  add(mapped.file().vertex_properties);
+  add(mapped.file().face_properties);
+  if (mapped.file().corner_texcoords) names.emplace_back("texture coordinates");
+  if (!names.empty()) add_loss(losses, enumerated(names) + ": on a grid is what was expanded");
+  add_sampling_losses(losses, mapped.file());
+  return losses;
+}
+
+void add_surface(const SpharmArguments& arguments, const MappedMesh& mapped,
+                 const HarmonicExpansion& expansion, Session& session) {
+  const bool is_on_grid = !arguments.grid.empty();
+  tell_losses(
+      arguments.reconstruction,
+      is_on_grid ? left_out_on_grid(mapped, expansion) : reconstruction_losses(mapped, expansion),
+      session.console);
+  if (is_on_grid) return add_on_grid(arguments, expansion, session);
+  add_reconstruction(session.files, arguments.reconstruction, mapped, expansion, session.threads());
+}
+
+/// Coefficients → a surface on a grid.
+int run_coefficients(const SpharmArguments& arguments) {
+  require_coefficients_alone(arguments);
+  Session session(arguments);
+  session.hold_signals();
+  HarmonicExpansion expansion = read_harmonics(arguments.input);
+  if (arguments.degree.value_or(0) > expansion.degree())
+    throw UsageMistake("--degree: " + display_name(arguments.input) +
+                       " has coefficients up to degree " + std::to_string(expansion.degree()));
+  if (arguments.degree) expansion = low_pass(std::move(expansion), *arguments.degree);
+  add_on_grid(arguments, expansion, session);
+  session.publish();
+  session.console.say(display_name(arguments.input) + ": degree " +
+                      std::to_string(expansion.degree()) + " on " + arguments.grid +
+                      ", certified one-to-one → " + output_name(arguments.reconstruction));
+  return Ok;
+}
+
 int run_spharm(SpharmArguments& arguments) {
   require_sensible(arguments);
-  require_there({arguments.input, arguments.sphere, arguments.flips});
+  require_there({arguments.input, arguments.sphere, arguments.flips, file_of_grid(arguments)});
+  if (has_coefficients(arguments.input)) return run_coefficients(arguments);
   Session session(arguments);
   const MappedMesh mapped = read_expanded(arguments, session);
   warn_of_few_vertices(arguments, mapped.file(), session.console);
@@ -183,12 +305,7 @@ int run_spharm(SpharmArguments& arguments) {
   if (!arguments.shadr.empty()) session.files.add(arguments.shadr, to_shadr(expansion));
   if (!arguments.coef.empty())
     session.files.add(arguments.coef, to_coef(expansion.fit.coefficients));
-  if (!arguments.reconstruction.empty()) {
-    tell_losses(arguments.reconstruction, reconstruction_losses(mapped, expansion),
-                session.console);
-    add_reconstruction(session.files, arguments.reconstruction, mapped, expansion,
-                       session.threads());
-  }
+  if (!arguments.reconstruction.empty()) add_surface(arguments, mapped, expansion, session);
   session.publish();
   session.console.say(display_name(arguments.input) + ": " + residual_line(expansion) + ", " +
                       short_number(session.stopwatch.seconds()) + " s");
@@ -200,10 +317,12 @@ int run_spharm(SpharmArguments& arguments) {
 void declare_options(Declaration& command, SpharmArguments& arguments) {
   command
       .input("MESH", arguments.input,
-             "A .sph.ply, or any mesh: it is mapped first; - for standard input")
+             "A .sph.ply, or any mesh: it is mapped first; - for standard input; or coefficients: "
+             "a .json of --json, or a .coef")
       .sphere(arguments.sphere)
       .number("--degree", arguments.degree, "L", {0, greatest_harmonic_degree},
               "Greatest degree, 0 to 1000")
+      .preset("20; of coefficients in a file all that there are")
       .texts("--scalar", arguments.scalars, "NAME", "A property of the vertices; may be repeated")
       .choice("--fit", arguments.least_squares, {{"least-squares", true}, {"quadrature", false}},
               "At the vertices, weighted by their solid angles, or the integral over the "
@@ -240,7 +359,11 @@ void declare_options(Declaration& command, SpharmArguments& arguments) {
       .written()
       .text("--reconstruct", arguments.reconstruction, "FILE",
             "The mesh as the harmonics have it, in the format of its name")
-      .written();
+      .written()
+      .text("--grid", arguments.grid, "GRID",
+            "What --reconstruct writes is on this grid, not on the mesh's vertices: " +
+                grid_patterns() + " or like:MESH");
+  arguments.given = command.given();
   declare_repair_options(command, arguments.repair);
   command.threads(arguments).console(arguments);
 }

@@ -49,15 +49,24 @@ Points turned_positions(const MappedMesh& mapped, const HarmonicExpansion& expan
 }
 
 /// What a map no longer is once it is turned.
-bool is_of_frame(const std::string& key) {
+bool is_of_frame(const std::pair<std::string, std::string>& line) {
+  const std::string& key = line.first;
   return key == "poles" || key == "meridian" || key == "upright" || is_planetocentric(key);
+}
+
+/// Comments of a file without those on what its coordinates are of.
+std::vector<std::string> without_place(std::vector<std::string> comments) {
+  MeshFile file;
+  file.comments = std::move(comments);
+  move_into(file, MeshFile{}, Points(0, 3));
+  return std::move(file.comments);
 }
 
 Provenance lines_of(const MappedMesh& mapped, const HarmonicExpansion& expansion) {
   Provenance lines = mapped.provenance();
   lines.emplace_back("harmonics", std::to_string(expansion.degree()));
   if (expansion.aligned == HarmonicAlignment::None) return lines;
-  std::erase_if(lines, [](const auto& line) { return is_of_frame(line.first); });
+  std::erase_if(lines, is_of_frame);
   lines.emplace_back("aligned", "first-order ellipsoid");
   return lines;
 }
@@ -120,6 +129,8 @@ HarmonicExpansion expand_in_harmonics(const MappedMesh& mapped,
   result.functions.insert(result.functions.end(), scalars.begin(), scalars.end());
   if (radius_about) result.functions.emplace_back("radius");
   result.least_squares = options.least_squares;
+  result.map = mapped.provenance();
+  result.comments = file.comments;
   result.diagonal = (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
   const Functions values = functions_of(file, scalars, radius_about);
   result.fit = fit_harmonics(mapped.topology(), mapped.map(), values, options);
@@ -137,7 +148,9 @@ void align(HarmonicExpansion& expansion, const MappedMesh& mapped, HarmonicAlign
   expansion.alignment = first_order_alignment(coefficients, flips, threads);
   expansion.aligned = what;
   coefficients = aligned(coefficients, *expansion.alignment, surface, threads);
+  std::erase_if(expansion.map, is_of_frame);
   if (!surface) return;
+  expansion.comments = without_place(std::move(expansion.comments));
   const Points shown = expansion.values.leftCols(axes);
   expansion.values.leftCols(axes) = (shown.rowwise() - expansion.alignment->centre.transpose()) *
                                     expansion.alignment->object.transpose();

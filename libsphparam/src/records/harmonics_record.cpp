@@ -1,6 +1,7 @@
 #include "sphparam/records/harmonics_record.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -8,8 +9,11 @@
 #include <stdexcept>
 
 #include "csv_field.h"
+#include "io/files/file_bytes.h"
 #include "number_text.h"
 #include "records/json_parts.h"
+#include "sphparam/io/coef_file.h"
+#include "sphparam/io/paths.h"
 #include "sphparam/version.h"
 
 namespace sphparam {
@@ -93,33 +97,136 @@ std::string quadrature_line(const HarmonicFit& fit) {
          percent(*fit.quadrature_change) + " of what the functions vary";
 }
 
+/// Objects of strangers' files may have any number of keys, which ordered ones seek one by one.
+using Document = nlohmann::json;
+
+/// "radius", but not "a b", which no property of vertices is called.
+bool is_name(const std::string& text) {
+  const auto is_blank = [](unsigned char c) { return c <= ' ' || c == 127; };
+  return !text.empty() && std::ranges::none_of(text, is_blank);
+}
+
+std::vector<std::string> function_names(const Document& functions, const std::string& file) {
+  constexpr std::array axes{"x", "y", "z"};
+  std::vector<std::string> names;
+  for (const Document& function : functions) {
+    const auto name = function.at("name").get<std::string>();
+    const bool is_expected =
+        names.size() < axes.size() ? name == axes[names.size()] : is_name(name);
+    if (!is_expected || std::ranges::find(names, name) != names.end())
+      throw ReadError(file, "functions are x, y, z and then others, each once, not " +
+                                joined(names) + (names.empty() ? "" : ", ") + one_line(name));
+    names.push_back(name);
+  }
+  if (names.size() < axes.size()) throw ReadError(file, "there are no functions x, y and z");
+  return names;
+}
+
+/// One function a column.
+Functions coefficient_table(const Document& functions, const std::string& file) {
+  Functions table;
+  for (size_t k = 0; k < functions.size(); ++k) {
+    const auto column = functions[k].at("coefficients").get<std::vector<double>>();
+    if (k == 0) table.resize(std::ssize(column), std::ssize(functions));
+    if (std::ssize(column) != table.rows())
+      throw ReadError(file, "functions have not as many coefficients each");
+    table.col(static_cast<Eigen::Index>(k)) =
+        Eigen::Map<const VectorX>(column.data(), std::ssize(column));
+  }
+  const auto rows = static_cast<double>(table.rows());
+  const double degree = std::round(std::sqrt(rows)) - 1;
+  if (degree < 0 || degree > greatest_harmonic_degree || (degree + 1) * (degree + 1) != rows)
+    throw ReadError(file, shortest(rows) + " coefficients are no (L + 1)² with L up to " +
+                              std::to_string(greatest_harmonic_degree));
+  return table;
+}
+
+HarmonicNormalisation normalisation_of(const Document& json, const std::string& file) {
+  const auto basis = json.at("basis").get<std::string>();
+  if (basis == geodetic_basis) return HarmonicNormalisation::FourPi;
+  if (basis == orthonormal_basis) return HarmonicNormalisation::Orthonormal;
+  throw ReadError(file, "its basis is none of ours: " + one_line(basis));
+}
+
+HarmonicAlignment alignment_of(const Document& json) {
+  if (!json.contains("alignment")) return HarmonicAlignment::None;
+  return json["alignment"].at("turned") == "sphere" ? HarmonicAlignment::Sphere
+                                                    : HarmonicAlignment::SphereAndSurface;
+}
+
+/// Lines that a mesh of them tells again.
+Provenance map_of(const Document& json) {
+  Provenance lines;
+  for (const auto& [key, value] : json.at("map").items())
+    if (is_name(key) && value.is_string())
+      lines.emplace_back(key, one_line(value.get<std::string>()));
+  return lines;
+}
+
+HarmonicExpansion of_json(const Document& json, const std::string& file) {
+  HarmonicExpansion expansion;
+  const Document& functions = json.at("functions");
+  expansion.functions = function_names(functions, file);
+  expansion.fit.coefficients = coefficient_table(functions, file);
+  expansion.normalisation = normalisation_of(json, file);
+  if (expansion.normalisation == HarmonicNormalisation::FourPi)
+    expansion.fit.coefficients *= std::sqrt(4 * std::numbers::pi);
+  expansion.aligned = alignment_of(json);
+  expansion.map = map_of(json);
+  if (expansion.aligned != HarmonicAlignment::None)
+    std::erase_if(expansion.map, [](const auto& line) { return line.first == "upright"; });
+  return expansion;
+}
+
 }  // namespace
+
+HarmonicExpansion parse_harmonics(std::string_view text, const std::string& name) try {
+  if (extension_of(name) != ".coef") return of_json(Document::parse(text), name);
+  HarmonicExpansion expansion;
+  expansion.functions = {"x", "y", "z"};
+  expansion.fit.coefficients = parse_coef(text, name);
+  return expansion;
+} catch (const Document::exception& error) {
+  throw ReadError(name, "these are no coefficients as `sphparam spharm --json` writes them: " +
+                            one_line(error.what()));
+}
+
+HarmonicExpansion read_harmonics(const std::string& path) {
+  const FileBytes bytes(path, ReadOptions{}.max_file_bytes);
+  return parse_harmonics(bytes.view(), bytes.name());
+}
 
 std::string to_json(const HarmonicExpansion& expansion, const std::string& mesh,
                     const Provenance& map) {
   const Functions coefficients = expansion.told_coefficients();
   const Functions power = power_per_degree(coefficients);
+  const bool is_measured = expansion.fit.rms.size() > 0;
   Json functions = Json::array();
   for (size_t k = 0; k < expansion.functions.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
-    functions.push_back({{"name", expansion.functions[k]},
-                         {"rms_residual", expansion.fit.rms[i]},
-                         {"rms_residual_unweighted", expansion.plain_rms[i]},
-                         {"power_per_degree", column(power, i)},
-                         {"coefficients", column(coefficients, i)}});
+    Json function = {{"name", expansion.functions[k]}};
+    if (is_measured) {
+      function["rms_residual"] = expansion.fit.rms[i];
+      function["rms_residual_unweighted"] = expansion.plain_rms[i];
+    }
+    function["power_per_degree"] = column(power, i);
+    function["coefficients"] = column(coefficients, i);
+    functions.push_back(std::move(function));
   }
   Json json = {{"sphparam", version},
                {"mesh", mesh},
                {"map", pairs_json(map)},
                {"degree", expansion.degree()},
-               {"basis", is_geodetic(expansion) ? geodetic_basis : orthonormal_basis},
-               {"fit", expansion.least_squares ? "least-squares" : "quadrature"},
-               {"iterations", expansion.fit.iterations},
-               {"position_rms", expansion.position_rms()},
-               {"position_rms_relative", expansion.position_rms() / expansion.diagonal},
-               {"position_rms_unweighted", expansion.plain_position_rms()},
-               {"rms", rms_meaning}};
-  if (!expansion.least_squares) json["quadrature"] = quadrature_json(expansion.fit);
+               {"basis", is_geodetic(expansion) ? geodetic_basis : orthonormal_basis}};
+  if (is_measured) {
+    json["fit"] = expansion.least_squares ? "least-squares" : "quadrature";
+    json["iterations"] = expansion.fit.iterations;
+    json["position_rms"] = expansion.position_rms();
+    json["position_rms_relative"] = expansion.position_rms() / expansion.diagonal;
+    json["position_rms_unweighted"] = expansion.plain_position_rms();
+    json["rms"] = rms_meaning;
+  }
+  if (is_measured && !expansion.least_squares) json["quadrature"] = quadrature_json(expansion.fit);
   if (expansion.degree() >= 1) {
     json["first_order_ellipsoid"] =
         vector_json(first_order_ellipsoid(expansion.fit.coefficients.leftCols(3)));

@@ -39,6 +39,11 @@ struct HarmonicExpansion {
   HarmonicAlignment aligned = HarmonicAlignment::None;
   std::optional<FirstOrderAlignment> alignment = {};
 
+  // Of the mesh, for a surface that is made of the harmonics alone; not what is so no more once
+  // they are turned.
+  Provenance map = {};                     // of the map that was used
+  std::vector<std::string> comments = {};  // of its file
+
   int degree() const;
   /// Those of `fit` in the normalisation that is told.
   Functions told_coefficients() const;

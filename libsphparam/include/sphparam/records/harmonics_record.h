@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sphparam/io/harmonic_expansion.h"
@@ -9,9 +10,18 @@
 namespace sphparam {
 
 /// All coefficients and residuals, as `sphparam spharm --json` tells them. `mesh`: its file; `map`:
-/// the provenance of the map that was used.
+/// the provenance of the map that was used. Of an expansion without residuals nothing is told of
+/// the fit.
 std::string to_json(const HarmonicExpansion& expansion, const std::string& mesh,
                     const Provenance& map);
+
+/// The coefficients that a file of `to_json` has, or one of SPHARM-PDM (.coef, of x, y, z), by its
+/// name: `functions` and `fit.coefficients`; of the former also `map`, `normalisation` and
+/// `aligned`. Nothing else is known: residuals and values are empty.
+/// Throws: ReadError; for names of functions, too, that are not x, y, z and then others, each once.
+HarmonicExpansion read_harmonics(const std::string& path);
+/// The same from text in memory; `name` is for messages, and tells which of both it is.
+HarmonicExpansion parse_harmonics(std::string_view text, const std::string& name);
 
 /// One line a coefficient: l, m, then one number a function; a header line first. Numbers come back
 /// exactly. Names end with " (4pi)" where coefficients are 4π-normalised.
