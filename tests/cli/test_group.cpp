@@ -6,6 +6,7 @@
 #include <string>
 
 #include "program.h"
+#include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/mesh_reader.h"
 #include "support/test_meshes.h"
 
@@ -238,6 +239,45 @@ TEST_CASE(
   CHECK(Json::parse(bytes_of(eggs.in_out("group.json")))["template_mended"]["repairs"] ==
         map["repairs"]);
   CHECK_THAT(bytes_of(eggs.in_out("index.html")), Contains("template egg1.obj: "));
+}
+
+TEST_CASE("group: means of what shapes have, and how areas grow, are in the files") {
+  const Folder folder;
+  std::vector<std::string> words{"group"};
+  for (int i = 0; i < 3; ++i) {
+    MeshFile file;
+    file.mesh = icosphere(2);
+    file.mesh.positions *= i + 1;
+    const auto count = size_t(file.mesh.vertex_count());
+    if (i > 0) file.set_vertex_property({"sulc", ScalarType::Float64, std::vector(count, 2.0 * i)});
+    const std::string path = folder / ("ball" + std::to_string(i) + ".ply");
+    save_mapped(path, MappedMesh({.file = file, .map = {icosphere(2).positions}}));
+    words.push_back(path);
+  }
+  const std::string out = folder / "out";
+  words.insert(words.end(),
+               {"--start", "maps", "--hold", "--grid", "ico:2", "--size", "0", "-o", out});
+  const Ended ended = sphparam_program(words);
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.err, Contains("sulc: its mean is of 2 of 3 shapes: ball0 has none"));
+  const Json report = Json::parse(bytes_of(out + "/group.json"));
+  CHECK(report["scalars"] == Json::array({{{"name", "sulc"}, {"shapes", 2}}}));
+  const MeshFile mean = read_mesh(out + "/mean.sph.ply");
+  CHECK(mean.find_vertex_property("sulc_mean")->values == std::vector(162, 3.0));
+  CHECK(mean.find_vertex_property("sulc_deviation")->values == std::vector(162, std::sqrt(2.0)));
+  const auto rows = lines_of(bytes_of(out + "/vertices.tsv"));
+  CHECK_THAT(rows[0], Catch::EndsWith("\tsulc_mean\tsulc_deviation"));
+  CHECK_THAT(rows[162], Catch::EndsWith("\t3\t1.4142135623730951"));
+  // The mean of balls of radius 1, 2 and 3 has radius 2.
+  for (const auto& [name, growth] : {std::pair("ball0", 0.25), {"ball1", 1.0}, {"ball2", 2.25}}) {
+    const MeshFile shape = read_mesh(out + "/shape_" + name + ".sph.ply");
+    for (const Property* property :
+         {shape.find_vertex_property("growth"), shape.find_face_property("growth")}) {
+      REQUIRE(property);
+      for (const double value : property->values) CHECK(value == Approx(growth).epsilon(1e-12));
+    }
+  }
 }
 
 TEST_CASE("group: the same bytes for 1 and 3 threads") {

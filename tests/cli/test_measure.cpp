@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "program.h"
+#include "sphparam/io/mesh_reader.h"
 #include "support/joined.h"
 #include "support/test_meshes.h"
 
@@ -116,6 +117,38 @@ TEST_CASE("measure: --signed says which side, in the report, the table and the f
   CHECK_THAT(refused.err,
              Contains("open.obj") && Contains("it is not closed") && Contains("3 edges are open"));
   CHECK(sphparam_program({"measure", open, balls.small, "--signed"}).code == 0);
+}
+
+TEST_CASE("measure: --growth says how areas grow between surfaces of the same triangles") {
+  const Folder folder;
+  TriangleMesh ball = icosphere(2);
+  const std::string one = folder / "one.obj", two = folder / "two.obj", file = folder / "g.ply";
+  write_bytes(one, obj_text(ball));
+  ball.positions *= 2;
+  write_bytes(two, obj_text(ball));
+  const std::vector<std::string> words{"measure",      one,        two,      "--samples",
+                                       "100",          "--growth", "--json", folder / "m.json",
+                                       "--per-vertex", file};
+  const Ended ended = sphparam_program(words);
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.out,
+             Contains("\ngrowth, area of 2 over that of 1: 4, of triangles from 4 to 4\n"));
+  const Json report = Json::parse(bytes_of(folder / "m.json"));
+  CHECK(report["growth"] == Json({{"total", 4.0}, {"min", 4.0}, {"max", 4.0}}));
+  const MeshFile written = read_mesh(file);
+  for (const Property* property :
+       {written.find_vertex_property("growth"), written.find_face_property("growth")}) {
+    REQUIRE(property);
+    CHECK(std::ranges::count(property->values, 4.0) == std::ssize(property->values));
+  }
+  CHECK(written.find_vertex_property("error") != nullptr);
+  CHECK(written.find_vertex_property("red")->values[0] == 253);
+  CHECK_FALSE(
+      Json::parse(sphparam_program({"measure", one, two, "--json", "-"}).out).contains("growth"));
+  write_bytes(two, obj_text(icosphere(1)));
+  const Ended refused = sphparam_program(words);
+  CHECK(refused.code == 2);
+  CHECK_THAT(refused.err, Contains("--growth: two.obj has not the triangles of one.obj"));
 }
 
 TEST_CASE("measure: a glTF file that export has turned is told of, one that it has not is not") {

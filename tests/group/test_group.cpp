@@ -334,6 +334,38 @@ TEST_CASE("group: shapes on the grid have what their vertices have, but normals"
   CHECK(group.mean.file().vertex_properties.empty());
 }
 
+TEST_CASE("group: numbers that shapes have under one name have a mean and a deviation") {
+  const SphereMap sphere{grid_sphere(small_grid).positions};
+  std::vector<MappedMesh> shapes;
+  for (const double factor : {1.0, 2.0, 6.0}) {
+    MeshFile file;
+    file.mesh = bumpy(small_grid);
+    std::vector<double> values;
+    for (Vertex v = 0; v < file.mesh.vertex_count(); ++v) values.push_back(factor * v);
+    if (factor != 2) file.set_vertex_property({"depth", ScalarType::Float32, values});
+    for (const char* name : {"sulc", "red", "s"})
+      file.set_vertex_property({name, ScalarType::Float64, values});
+    file.set_vertex_property({"label", ScalarType::Int32, values});
+    if (factor == 6) file.set_vertex_property({"alone", ScalarType::Float64, values});
+    shapes.push_back(mapped(file, sphere));
+  }
+  const GroupOptions options{.start = GroupStart::Maps, .hold = true, .grid = small_grid};
+  const Group group = make_group(shapes, shapes[0], options);
+  REQUIRE(group.scalars.size() == 2);
+  const GroupScalar &depth = group.scalars[0], &sulc = group.scalars[1];
+  CHECK(depth.name == "depth");
+  CHECK(depth.shapes == std::vector<size_t>{0, 2});
+  CHECK(sulc.name == "sulc");
+  CHECK(sulc.shapes == std::vector<size_t>{0, 1, 2});
+  for (Vertex v = 0; v < group.mean.mesh().vertex_count(); ++v) {
+    CHECK(depth.mean[v] == 3.5 * v);
+    CHECK(depth.deviation[v] == Approx(std::sqrt(12.5) * v));
+    CHECK(sulc.mean[v] == 3 * v);
+    CHECK(sulc.deviation[v] == Approx(std::sqrt(7.0) * v));
+  }
+  CHECK(make_group({shapes[0]}, shapes[0], options).scalars.empty());
+}
+
 TEST_CASE("group: points of another surface that a match has for vertices stay with these") {
   MeshFile file;
   file.mesh = bumpy(small_grid);

@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
+#include <utility>
 
 #include "commands/command.h"
 #include "commands/surfaces.h"
 #include "console/places.h"
+#include "elementary.h"
 #include "number_text.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/mesh_writer.h"
@@ -28,6 +31,7 @@ constexpr char summary[] =
     "  sphparam measure statue.obj statue_low.ply --max-rms 0.1% || echo too far\n"
     "  sphparam measure statue.obj statue_low.ply --per-vertex error.ply\n"
     "  sphparam measure scan.ply part.stl --signed --per-vertex deviation.ply\n"
+    "  sphparam measure visit1.sph.ply visit2.sph.ply --growth --per-vertex growth.ply\n"
     "\n"
     "Both directions: samples spread evenly over each surface, and their nearest points on the\n"
     "other. Maxima (the larger is the Hausdorff distance) are over vertices too and then sought\n"
@@ -43,6 +47,7 @@ struct MeasureArguments : CommonArguments {
   std::string per_vertex;
   RepairArguments repair;                       // of both
   bool upright = false;                         // as their files say what is up
+  bool growth = false;                          // of areas: both have the same triangles
   std::optional<Amount> max_rms, max_distance;  // % of the diagonal of the first's bounding box
 };
 
@@ -169,6 +174,34 @@ MeshFile placed(const MeasureArguments& arguments, const MeshFile& first, MeshFi
   return second;
 }
 
+std::optional<Growth> growth_asked_for(const MeasureArguments& arguments, const MeshFile& first,
+                                       const MeshFile& second) try {
+  if (!arguments.growth) return std::nullopt;
+  return measure_growth(first.mesh, second.mesh);
+} catch (const std::invalid_argument&) {
+  throw UsageMistake("--growth: " + display_name(arguments.second) + " has not the triangles of " +
+                     display_name(arguments.first) +
+                     ", one by one; of two maps `sphparam match` or `group` makes surfaces that "
+                     "have, of two on one sphere `remesh`");
+}
+
+/// The areas of B over those of A, at vertices and faces, in colours of their logarithms.
+MeshFile with_growth(MeshFile file, const Growth& growth, const std::string& second) {
+  const VectorX logarithms =
+      growth.vertices.unaryExpr([](double x) { return x > 0 ? elementary::log(x) : 0.0; });
+  file = with_coloured_values(std::move(file), "growth", logarithms,
+                              "area in " + display_name(second) +
+                                  " over that here; of its "
+                                  "natural logarithm");
+  const auto property = [](const VectorX& values) {
+    return Property{"growth", ScalarType::Float64,
+                    std::vector<double>(values.begin(), values.end())};
+  };
+  file.set_vertex_property(property(growth.vertices));
+  file.set_face_property(property(growth.faces));
+  return file;
+}
+
 /// A with each vertex's distance to B, and the side, where that is wanted.
 MeshFile with_distances(const MeasureArguments& arguments, const MeshFile& first,
                         const OneSidedDistance& distance) {
@@ -203,6 +236,7 @@ int run_measure(MeasureArguments& arguments) {
   const MeshFile second =
       placed(arguments, first, read_surface(arguments.second, arguments.repair, session), session);
   session.hold_signals();
+  const std::optional<Growth> growth = growth_asked_for(arguments, first, second);
   const SurfaceDistance distance = measure(arguments, first, second, session);
   if (!arguments.upright) tell_turned(arguments, first, second, distance, session);
   DistanceRecord record = {.first = arguments.first,
@@ -212,11 +246,12 @@ int run_measure(MeasureArguments& arguments) {
                            .options = arguments.options,
                            .distance = distance,
                            .upright = arguments.upright,
+                           .growth = growth,
                            .limits = judge(arguments, distance)};
   if (!arguments.per_vertex.empty()) {
-    session.files.add(
-        arguments.per_vertex,
-        serialise_mesh(arguments.per_vertex, with_distances(arguments, first, distance.forth)));
+    MeshFile file = with_distances(arguments, first, distance.forth);
+    if (growth) file = with_growth(std::move(file), *growth, arguments.second);
+    session.files.add(arguments.per_vertex, serialise_mesh(arguments.per_vertex, file));
     record.outputs.emplace_back("per_vertex", arguments.per_vertex);
   }
   record.seconds = session.stopwatch.seconds();
@@ -251,6 +286,9 @@ void declare_options(Declaration& command, MeasureArguments& arguments) {
       .flag("--signed", options.deviations,
             "Also on which side of B, a closed surface, A is: distances less than 0 inside; in "
             "--per-vertex as property deviation, and the colours")
+      .flag("--growth", arguments.growth,
+            "Also how areas grow from A to B, which has A's triangles: B's over A's; in "
+            "--per-vertex as property growth of vertices and faces, and the colours")
       .flag("--upright", arguments.upright,
             "B turned as A stands, by what their files say is up and in front: y and z in glTF; z "
             "and -y where nothing says")

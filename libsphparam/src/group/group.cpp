@@ -11,6 +11,7 @@
 
 #include "correspondence/surface_area.h"
 #include "embedding/energy/energy_domain.h"
+#include "group/group_scalars.h"
 #include "group/into_correspondence.h"
 #include "io/attributes/other_coordinates.h"
 #include "io/match_targets.h"
@@ -260,7 +261,9 @@ class GroupWork {
                                    options_.threads);
     const int iterations = procrustes.iterations;
     MatrixX distances = procrustes_distances(procrustes.shapes, weights_of, options_.threads);
-    Group group{.members = members(procrustes),
+    std::vector<GroupMember> all = members(procrustes);
+    std::vector<GroupScalar> scalars = group_scalars(all);
+    Group group{.members = std::move(all),
                 .reference = reference,
                 .mean = mean,
                 .weights = weights_of,
@@ -268,7 +271,8 @@ class GroupWork {
                 .distances = std::move(distances),
                 .deviation = {},
                 .normal_deviation = {},
-                .iterations = iterations};
+                .iterations = iterations,
+                .scalars = std::move(scalars)};
     measure_deviation(group);
     return group;
   }

@@ -63,6 +63,17 @@ Json sampled_json(const DistanceOptions& options) {
   return {{"on", on}, {"samples", options.samples}, {"seed", options.seed}};
 }
 
+Json growth_json(const Growth& growth) {
+  return {
+      {"total", growth.total}, {"min", growth.faces.minCoeff()}, {"max", growth.faces.maxCoeff()}};
+}
+
+std::string growth_line(const Growth& growth) {
+  return "growth, area of 2 over that of 1: " + short_number(growth.total, 6) +
+         ", of triangles from " + short_number(growth.faces.minCoeff(), 6) + " to " +
+         short_number(growth.faces.maxCoeff(), 6) + "\n";
+}
+
 Json limits_json(const std::vector<DistanceLimit>& limits) {
   Json all = Json::array();
   for (const DistanceLimit& limit : limits) {
@@ -103,26 +114,28 @@ std::string row(const std::string& name, const OneSidedDistance& side, double di
 std::string to_json(const DistanceRecord& record) {
   const SurfaceDistance& distance = record.distance;
   const double first = distance.diagonal_first, second = distance.diagonal_second;
-  return text_of({{"sphparam", version},
-                  {"command", "measure"},
-                  {"first", mesh_json(record.first, record.first_file, first)},
-                  {"second", mesh_json(record.second, record.second_file, second)},
-                  {"sampled", sampled_json(record.options)},
-                  {"upright", record.upright},
-                  {"first_to_second", forth_json(distance)},
-                  {"second_to_first", side_json(distance.back, second, first, first)},
-                  {"two_sided",
-                   {{"RMS", distance.rms()},
-                    {"max", distance.max()},
-                    {"max_bound", distance.max_bound()},
-                    {"mean", distance.mean()},
-                    {"relative",
-                     {{"RMS", distance.rms() / first},
-                      {"max", distance.max() / first},
-                      {"mean", distance.mean() / first}}}}},
-                  {"limits", limits_json(record.limits)},
-                  {"outputs", pairs_json(record.outputs)},
-                  {"seconds", record.seconds}});
+  Json json = {{"sphparam", version},
+               {"command", "measure"},
+               {"first", mesh_json(record.first, record.first_file, first)},
+               {"second", mesh_json(record.second, record.second_file, second)},
+               {"sampled", sampled_json(record.options)},
+               {"upright", record.upright},
+               {"first_to_second", forth_json(distance)},
+               {"second_to_first", side_json(distance.back, second, first, first)},
+               {"two_sided",
+                {{"RMS", distance.rms()},
+                 {"max", distance.max()},
+                 {"max_bound", distance.max_bound()},
+                 {"mean", distance.mean()},
+                 {"relative",
+                  {{"RMS", distance.rms() / first},
+                   {"max", distance.max() / first},
+                   {"mean", distance.mean() / first}}}}},
+               {"limits", limits_json(record.limits)},
+               {"outputs", pairs_json(record.outputs)},
+               {"seconds", record.seconds}};
+  if (record.growth) json["growth"] = growth_json(*record.growth);
+  return text_of(json);
 }
 
 std::string to_text(const DistanceRecord& record) {
@@ -141,6 +154,7 @@ std::string to_text(const DistanceRecord& record) {
               std::max(distance.forth.min, distance.back.min), distance.diagonal_first);
   text += "\n";
   if (distance.forth.deviation) text += signed_line(*distance.forth.deviation);
+  if (record.growth) text += growth_line(*record.growth);
   text += "farthest: " + place_text(distance.forth.farthest, distance.diagonal_first, " ") +
           " of 1, " + place_text(distance.back.farthest, distance.diagonal_second, " ") +
           " of 2; no point is farther than " + short_number(distance.max_bound(), 6) + "\n";

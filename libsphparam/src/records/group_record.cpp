@@ -13,6 +13,7 @@
 #include "sphparam/group/surface_size.h"
 #include "sphparam/io/brain_names.h"
 #include "sphparam/io/file_numbers.h"
+#include "sphparam/io/losses.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/repair_advice.h"
 #include "sphparam/names.h"
@@ -109,6 +110,24 @@ Json modes_json(const ShapeModes& modes) {
   return all;
 }
 
+Json scalars_json(const Group& group) {
+  Json all = Json::array();
+  for (const GroupScalar& scalar : group.scalars)
+    all.push_back({{"name", scalar.name}, {"shapes", scalar.shapes.size()}});
+  return all;
+}
+
+/// Which shapes are not in the mean of what others have; empty where all are.
+std::string missing_line(const GroupRecord& record, const GroupScalar& scalar) {
+  std::vector<std::string> missing;
+  for (size_t i = 0; i < record.names.size(); ++i)
+    if (!std::ranges::binary_search(scalar.shapes, i)) missing.push_back(record.names[i]);
+  if (missing.empty()) return {};
+  return scalar.name + ": its mean is of " + std::to_string(scalar.shapes.size()) + " of " +
+         std::to_string(record.names.size()) + " shapes: " + enumerated(missing) +
+         (missing.size() == 1 ? " has" : " have") + " none";
+}
+
 /// Subjects of FreeSurfer have one name for the same surface of each: "sub01_lh_white" of
 /// "sub01/surf/lh.white", as in a batch.
 std::string name_of_shape(const std::string& file) {
@@ -160,6 +179,11 @@ double distance_from_mean(const Group& group, size_t member) {
   return rms(group.members[member].aligned - group.mean.mesh().positions, group.weights);
 }
 
+Growth growth_from_mean(const Group& group, size_t member) {
+  const TriangleMesh& mean = group.mean.mesh();
+  return measure_growth(mean, {group.members.at(member).aligned, mean.triangles});
+}
+
 double rms_distance_from_mean(const Group& group) {
   double squares = 0;
   for (size_t i = 0; i < group.members.size(); ++i) {
@@ -199,6 +223,7 @@ std::string to_json(const GroupRecord& record) {
                      {"size_of_mean", size_of_mean(group)},
                      {"variance", group.modes.variance},
                      {"modes", modes_json(group.modes)},
+                     {"scalars", scalars_json(group)},
                      {"procrustes_iterations", group.iterations},
                      {"shapes", members},
                      {"landmarks", landmarks},
@@ -246,6 +271,8 @@ std::string vertices_table(const GroupRecord& record) {
   std::vector<std::string> header{"vertex",          "x", "y", "z", "weight", "deviation",
                                   "normal_deviation"};
   for (std::string& name : mode_names(group, "normal_mode")) header.push_back(std::move(name));
+  for (const GroupScalar& scalar : group.scalars)
+    header.insert(header.end(), {scalar.name + "_mean", scalar.name + "_deviation"});
   std::string text = row(header);
   for (Vertex v = 0; v < group.mean.mesh().vertex_count(); ++v) {
     const Vector3 x = group.mean.mesh().position(v);
@@ -255,6 +282,8 @@ std::string vertices_table(const GroupRecord& record) {
       cells.push_back(shortest(value));
     for (const Points& mode : group.modes.modes)
       cells.push_back(shortest(mode.row(v).dot(normals.row(v))));
+    for (const GroupScalar& scalar : group.scalars)
+      cells.insert(cells.end(), {shortest(scalar.mean[v]), shortest(scalar.deviation[v])});
     text += row(cells);
   }
   return text;
@@ -328,6 +357,9 @@ std::vector<std::string> group_warnings(const GroupRecord& record) {
                        short_number(record.group.members[i].energy) +
                        "): look at its correspondence; where it is wrong, landmarks by match bring "
                        "it right");
+  for (const GroupScalar& scalar : record.group.scalars)
+    if (std::string line = missing_line(record, scalar); !line.empty())
+      warnings.push_back(std::move(line));
   return warnings;
 }
 

@@ -63,6 +63,11 @@ class GroupWriter {
     file.set_vertex_property(
         {"normal_deviation", ScalarType::Float64, as_list(group().normal_deviation)});
     file.set_vertex_property({"weight", ScalarType::Float64, as_list(group().weights)});
+    for (const GroupScalar& scalar : group().scalars) {
+      file.set_vertex_property({scalar.name + "_mean", ScalarType::Float64, as_list(scalar.mean)});
+      file.set_vertex_property(
+          {scalar.name + "_deviation", ScalarType::Float64, as_list(scalar.deviation)});
+    }
     const MappedMesh mean = with_file(group().mean, std::move(file));
     add_mesh_with_map("mean.sph.ply", mean);
     add_glb("mean.glb", mean, {});
@@ -107,6 +112,9 @@ class GroupWriter {
                               .sum();
     MeshFile file = shape.file();
     file.set_vertex_property({"normal_displacement", ScalarType::Float64, as_list(along)});
+    const Growth growth = growth_from_mean(group(), i);
+    file.set_vertex_property({"growth", ScalarType::Float64, as_list(growth.vertices)});
+    file.set_face_property({"growth", ScalarType::Float64, as_list(growth.faces)});
     add_mesh_with_map("shape_" + record_.names[i] + ".sph.ply", with_file(shape, std::move(file)));
   }
 

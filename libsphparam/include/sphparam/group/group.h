@@ -59,6 +59,13 @@ struct GroupMember {
   std::vector<std::string> warnings = {};  // for people
 };
 
+/// What vertices of shapes have under one name, on the grid: floating numbers, not labels.
+struct GroupScalar {
+  std::string name;
+  std::vector<size_t> shapes;  // those that have it, two at least
+  VectorX mean, deviation;     // #V: of these; deviations are those of a sample, as the group's
+};
+
 /// Shapes in correspondence: vertex v of the mean is the same place on all.
 struct Group {
   std::vector<GroupMember> members;  // in the order of the shapes
@@ -70,6 +77,7 @@ struct Group {
   VectorX deviation;         // #V: root of Σ |x − mean|² / (shapes − 1); 0 of one shape
   VectorX normal_deviation;  // #V: the same along the mean's normals
   int iterations = 0;        // of Procrustes
+  std::vector<GroupScalar> scalars = {};  // in the order in which shapes have them
 };
 
 /// Brings shapes into correspondence, each to the template and then, so often as asked for, to the

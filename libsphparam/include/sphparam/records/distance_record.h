@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "sphparam/io/mesh_file.h"
+#include "sphparam/measure/growth.h"
 #include "sphparam/measure/surface_distance.h"
 
 namespace sphparam {
@@ -25,6 +27,7 @@ struct DistanceRecord {
   const DistanceOptions& options;
   const SurfaceDistance& distance;
   bool upright = false;  // the second was turned as the first stands, by what their files say
+  std::optional<Growth> growth = {};  // from the first to the second, where that was asked for
   std::vector<DistanceLimit> limits = {};
   std::vector<std::pair<std::string, std::string>> outputs = {};  // what it is, where it is
   double seconds = 0;
@@ -32,7 +35,8 @@ struct DistanceRecord {
 
 /// As `sphparam measure --json` tells it. Keys of each direction as MeshLab has them: RMS, max,
 /// mean, min, n_samples, diag_mesh_0 (of the mesh sampled) and diag_mesh_1. `signed` of the first
-/// to the second where the side was asked for.
+/// to the second where the side was asked for; `growth`, of areas and of the least and the greatest
+/// of a triangle, where that was.
 std::string to_json(const DistanceRecord& record);
 
 /// A table for people.

@@ -8,6 +8,7 @@
 #include "sphparam/group/group.h"
 #include "sphparam/group/template_landmarks.h"
 #include "sphparam/io/mesh_source.h"
+#include "sphparam/measure/growth.h"
 
 namespace sphparam {
 
@@ -52,7 +53,7 @@ std::string shapes_table(const GroupRecord& record);
 /// Distances of each two shapes.
 std::string distances_table(const GroupRecord& record);
 /// A row a vertex of the mean: where it is, how much shapes differ there, what the modes do there
-/// along the normal.
+/// along the normal; `Group::scalars`.
 std::string vertices_table(const GroupRecord& record);
 /// A row a shape and landmark: where it is on the shape, in its file's coordinates, its triangle
 /// and weights of the corners, and the vertex of the file that is nearest to it in space, by its
@@ -64,7 +65,9 @@ std::string grid_name(const GroupOptions& options);
 
 /// RMS distance of a member's aligned shape from the mean, weighted; the mesh's unit.
 double distance_from_mean(const Group& group, size_t member);
-/// That of all members together: the root of the mean of the squares of the distances.
+/// How areas grow from the mean to it.
+Growth growth_from_mean(const Group& group, size_t member);
+/// Of all members' distances together: the root of the mean of the squares of the distances.
 double rms_distance_from_mean(const Group& group);
 /// Of the shapes' sizes, to which `GroupOptions::scale` brings them.
 double mean_size(const Group& group);
@@ -78,7 +81,7 @@ std::vector<std::string> mode_lines(const GroupRecord& record);
 /// choosing a component kept, what was put in.
 std::vector<std::string> mended_lines(const GroupRecord& record);
 /// What is to be looked at, each with the shape's name: what was told of each, and shapes whose
-/// energy is far above the others'.
+/// energy is far above the others'; of `Group::scalars` which shapes are without.
 std::vector<std::string> group_warnings(const GroupRecord& record);
 
 }  // namespace sphparam
