@@ -76,6 +76,29 @@ def test_landmarks_of_the_template_are_found_on_all_shapes(group, shapes):
         group.landmarks(3)
 
 
+def test_held_shapes_have_no_energy_and_all_have_a_confidence_and_grow(shapes, group):
+    held = sp.group(shapes, start="rotation", hold=True, grid="ico:3")
+    assert np.isnan(held.energies).all() and held.confidences[0] == 1
+    assert (np.array(group.energies[1:]) >= 2).all() and ((0 <= np.array(group.confidences)) & (np.array(group.confidences) <= 1)).all()
+    assert group.growth.shape == (3, len(group.mean.vertices))
+    for aligned, growth in zip(group.aligned, group.growth):
+        assert (growth == sp.growth(group.mean, (aligned, group.mean.faces))[1]).all()
+    other = sp.group(shapes, start="rotation", grid="ico:3", energy="angle-and-area")
+    assert other.energies[1] != sp.group(shapes, start="rotation", grid="ico:3").energies[1]
+    with pytest.raises(ValueError, match="energy: no 'rubber'"):
+        sp.group(shapes, energy="rubber")
+
+
+def test_numbers_of_several_shapes_have_a_mean():
+    vertices, faces = potato(2)
+    number = np.arange(len(vertices), dtype=float)
+    shapes = [sp.map(vertices, faces, values=values) for values in ({"sulc": number}, {"sulc": 3 * number, "b": number}, {})]
+    found = sp.group(shapes, start="maps", hold=True, grid="template").scalars
+    assert list(found) == ["sulc"] and found["sulc"].name == "sulc" and found["sulc"].shapes.tolist() == [0, 1]
+    assert (found["sulc"].mean == 2 * number).all()
+    assert np.allclose(found["sulc"].deviation, np.sqrt(2) * number, atol=0)
+
+
 def test_the_same_for_any_number_of_threads(shapes, group):
     one = sp.group(shapes, start="rotation", grid="ico:4", threads=1)
     assert (one.aligned == group.aligned).all()

@@ -523,12 +523,82 @@ def test_harmonics_are_evaluated_where_the_vertices_are(mapped):
     assert list(shape.ellipsoid) == sorted(shape.ellipsoid, reverse=True)
 
 
+def test_harmonics_are_a_surface_on_any_grid_and_files(mapped, tmp_path):
+    shape = mapped.spharm(6, values=["height"])
+    low = shape.surface("ico:3", degree=2)
+    assert low.certificate.one_to_one and low.vertices.shape == (642, 3)
+    other = mapped.spharm(6, values=["height"])
+    other.coefficients = shape.coefficients[:9]
+    assert np.allclose(np.c_[low.vertices, low.values["height"]], other(low.points), atol=1e-14)
+    assert (shape.surface(mapped).points == mapped.points).all()
+    assert np.allclose(shape.surface(mapped).vertices, shape.reconstructed[:, :3], atol=1e-12)
+    mapped.save(tmp_path / "a.sph.ply")
+    program("spharm", "a.sph.ply", "--degree", "6", "--scalar", "height", "--json", "theirs.json", cwd=tmp_path)
+    for name, normalisation in (("a.json", "orthonormal"), ("b.json", "4pi"), ("theirs.json", "")):
+        if normalisation:
+            shape.save(tmp_path / name, normalisation=normalisation)
+        again = sp.read_harmonics(tmp_path / name)
+        assert again.functions == shape.functions and again.degree == 6 and not again.aligned
+        assert np.allclose(again.coefficients, shape.coefficients, rtol=1e-15, atol=0)
+        assert again.reconstructed.shape == (0, 4) and np.isnan([again.rms, again.plain_rms, again.diagonal]).all()
+    shape.save(tmp_path / "a.coef")
+    coef = sp.read_harmonics(tmp_path / "a.coef")
+    assert coef.functions == ["x", "y", "z"] and np.allclose(coef.coefficients, shape.coefficients[:, :3], rtol=1e-15, atol=0)
+    coef.save(tmp_path / "c.json")
+    assert "position_rms" in (tmp_path / "a.json").read_text() and "position_rms" not in (tmp_path / "c.json").read_text()
+    program("spharm", "a.json", "--degree", "2", "--grid", "ico:3", "--reconstruct", "low.sph.ply", cwd=tmp_path)
+    assert (sp.load(tmp_path / "low.sph.ply").vertices == low.vertices).all()
+    assert sp.read_harmonics(tmp_path / "a.json").surface("ico:3", degree=2).vertices == pytest.approx(low.vertices)
+    with pytest.raises(ValueError, match="path: coefficients end in .json, .csv or .coef"):
+        shape.save(tmp_path / "a.txt")
+    with pytest.raises(ValueError, match="normalisation: 'orthonormal' or '4pi'"):
+        shape.save(tmp_path / "d.json", normalisation="schmidt")
+    with pytest.raises(ValueError, match="degree: 0 to 6"):
+        shape.surface("ico:2", degree=7)
+    with pytest.raises(ValueError, match="grid"):
+        shape.surface("ball")
+    with pytest.raises(sp.ReadError, match="no coefficients"):
+        sp.read_harmonics(tmp_path / "a.sph.ply")
+    shape.coefficients = shape.coefficients[:, :3]
+    with pytest.raises(ValueError, match="coefficients: 4 columns are needed"):
+        shape.surface("ico:2")
+
+
+def test_growth_is_of_faces_and_of_what_is_about_vertices(mapped):
+    faces, vertices = sp.growth(mapped, (2 * mapped.vertices, F))
+    assert (faces == 4).all() and faces.shape == (len(F),) and (vertices == 4).all() and vertices.shape == (len(V),)
+    with pytest.raises(ValueError, match="same triangles"):
+        sp.growth((V, F), (V, F[1:]))
+
+
 def test_aligned_harmonics_do_not_depend_on_how_the_mesh_lies(mapped):
     quarter = np.array([[0, 1, 0], [-1, 0, 0], [0, 0, 1]])
     turned = sp.with_sphere((7 + mapped.vertices @ quarter, F), mapped.points)
     one, other = mapped.spharm(8, align=True), turned.spharm(8, align=True)
     assert np.allclose(one.coefficients, other.coefficients, atol=1e-9)
     assert not np.allclose(mapped.spharm(8).coefficients, turned.spharm(8).coefficients, atol=0.1)
+
+
+def test_half_turns_of_a_template_are_taken(mapped, tmp_path):
+    mapped.save(tmp_path / "a.sph.ply")
+    program("spharm", "a.sph.ply", "--degree", "8", "--align", "--coef", "t.coef", cwd=tmp_path)
+    program("spharm", "a.sph.ply", "--degree", "8", "--align=sphere", "--coef", "s.coef", cwd=tmp_path)
+    template = sp.read_harmonics(tmp_path / "t.coef")
+    one = mapped.spharm(8, align=True)
+    assert np.allclose(one.coefficients, template.coefficients, atol=1e-12) and one.aligned
+    sphere = mapped.spharm(8, align="sphere")
+    assert np.allclose(sphere.coefficients, sp.read_harmonics(tmp_path / "s.coef").coefficients, atol=1e-12) and sphere.aligned
+    program("spharm", "a.sph.ply", "--degree", "8", "--align", "--flip-template", "t.coef", "--coef", "f.coef", cwd=tmp_path)
+    same = mapped.spharm(8, align=True, flip_template=sp.read_harmonics(tmp_path / "t.coef"))
+    assert np.allclose(same.coefficients, sp.read_harmonics(tmp_path / "f.coef").coefficients, atol=1e-12)
+    with pytest.raises(ValueError, match="align: True, or 'sphere'"):
+        mapped.spharm(3, align="surface")
+    with pytest.raises(TypeError, match="flip_template: Harmonics are needed"):
+        mapped.spharm(3, align=True, flip_template="t.coef")
+    with pytest.raises(ValueError, match="flip_template: it is for align"):
+        mapped.spharm(3, flip_template=template)
+    with pytest.raises(ValueError):
+        mapped.spharm(3, align=True, flip_template=mapped.spharm(3))
 
 
 def test_distortion_is_told_face_by_face(mapped):

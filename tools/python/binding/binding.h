@@ -1,5 +1,6 @@
 #pragma once
 
+#include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
 #include <atomic>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "sphparam/gltf/texture_format.h"
+#include "sphparam/io/harmonic_expansion.h"
 #include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/mesh_source.h"
 #include "sphparam/io/up_axis.h"
@@ -99,6 +101,17 @@ class Mapped {
   void make_mesh() const;
   std::shared_ptr<State> state_;
 };
+
+/// A surface in harmonics, and of what it is told in files.
+struct Expansion {
+  HarmonicExpansion harmonics;
+  std::string mesh;
+  Provenance map;
+};
+
+/// It, with these coefficients: where they are others, of no known residuals.
+HarmonicExpansion with_coefficients(const Expansion& expansion,
+                                    const py::array_t<double, py::array::c_style>& coefficients);
 
 /// A map that was to be one-to-one, and what is proved of it instead.
 class NotOneToOne : public NotCertifiedError {

@@ -9,10 +9,13 @@
 #include "binding.h"
 #include "call.h"
 #include "embedding/frame/nearest_rotation.h"
+#include "sphparam/io/coef_file.h"
 #include "sphparam/io/fillers.h"
 #include "sphparam/io/harmonic_expansion.h"
+#include "sphparam/io/paths.h"
 #include "sphparam/io/planetocentric.h"
 #include "sphparam/io/safe_file.h"
+#include "sphparam/measure/growth.h"
 #include "sphparam/measure/surface_distance.h"
 #include "sphparam/mesh/fillers.h"
 #include "sphparam/records/harmonics_record.h"
@@ -48,6 +51,16 @@ py::dict measure(const Source& first, const Source& second, std::int64_t samples
                         std::string(error.what()));
 }
 
+/// Of faces, and of vertices. Fillers are faces as others are.
+py::tuple growth(const Source& first, const Source& second) {
+  const TriangleMesh &one = first.mesh.file.mesh, &other = second.mesh.file.mesh;
+  const Growth found = measure_growth(one, other);
+  const auto list = [](const VectorX& values) {
+    return owning(std::vector<double>(values.begin(), values.end()));
+  };
+  return py::make_tuple(list(found.faces), list(found.vertices));
+}
+
 /// Degrees, RMS over the surface, of the map's directions from those of a body about this centre; 0
 /// where there is no such body.
 double degrees_off(const MappedMesh& mapped, const Vector3& centre) try {
@@ -58,12 +71,45 @@ double degrees_off(const MappedMesh& mapped, const Vector3& centre) try {
   return 0;
 }
 
+Functions table_of(const py::array_t<double, py::array::c_style>& coefficients) {
+  Functions table(coefficients.shape(0), coefficients.shape(1));
+  std::copy(coefficients.data(), coefficients.data() + coefficients.size(), table.data());
+  return table;
+}
+
+/// What Python knows of harmonics, wherever they come from. It keeps them whole for files.
+py::dict as_dict(Expansion&& expansion) {
+  const HarmonicExpansion& found = expansion.harmonics;
+  const Functions& coefficients = found.fit.coefficients;
+  const Vector3 axes = found.degree() > 0 ? first_order_ellipsoid(coefficients.leftCols<3>())
+                                          : Vector3(Vector3::Zero());
+  py::dict dict;
+  dict["functions"] = found.functions;
+  dict["ellipsoid"] = py::make_tuple(axes.x(), axes.y(), axes.z());
+  dict["aligned"] = found.aligned != HarmonicAlignment::None;
+  dict["power"] = owning_rows(power_per_degree(coefficients));
+  dict["values"] = owning_rows(found.values);
+  dict["coefficients"] = owning_rows(coefficients);
+  dict["expansion"] = std::move(expansion);
+  return dict;
+}
+
+HarmonicAlignment alignment_named(const std::string& word) {
+  if (word.empty()) return HarmonicAlignment::None;
+  return word == "sphere" ? HarmonicAlignment::Sphere : HarmonicAlignment::SphereAndSurface;
+}
+
+/// `turned`: "", "sphere" or "surface", which is both; `flips`: coefficients of a template.
 /// `radius`: expanded too, from `centre`, else as the map says what its centre is.
 py::dict expand(const Mapped& mapped, int degree, const std::vector<std::string>& scalars,
-                bool least_squares, bool turned, bool radius,
+                bool least_squares, const std::string& turned,
+                const std::optional<py::array_t<double, py::array::c_style>>& flips, bool radius,
                 const std::optional<std::array<double, 3>>& given, int threads,
                 const py::object& progress) {
   std::optional<Vector3> centre, from;
+  std::optional<Functions> half_turns;
+  if (flips) half_turns = table_of(*flips);
+  const HarmonicAlignment alignment = alignment_named(turned);
   if (given) from = Vector3(given->data());
   if (radius) centre = body_centre(planetocentric(mapped.mesh().provenance()), from);
   HarmonicExpansion found = call(progress, [=, mesh = mapped.mesh()](const Progress& report) {
@@ -71,28 +117,24 @@ py::dict expand(const Mapped& mapped, int degree, const std::vector<std::string>
         mesh, scalars,
         {.degree = degree, .least_squares = least_squares, .threads = threads, .progress = report},
         centre);
-    if (turned) align(expansion, mesh, HarmonicAlignment::SphereAndSurface, nullptr, threads);
+    align(expansion, mesh, alignment, half_turns ? &*half_turns : nullptr, threads);
     return expansion;
   });
-  const Vector3 axes = degree > 0 ? first_order_ellipsoid(found.fit.coefficients.leftCols<3>())
-                                  : Vector3(Vector3::Zero());
-  py::dict dict;
-  dict["functions"] = found.functions;
-  dict["centre"] = py::none();
-  if (centre) dict["centre"] = py::make_tuple(centre->x(), centre->y(), centre->z());
-  dict["degrees_off"] = centre ? degrees_off(mapped.mesh(), *centre) : 0;
-  dict["rms"] = found.position_rms();
-  dict["plain_rms"] = found.plain_position_rms();
-  dict["diagonal"] = found.diagonal;
-  dict["ellipsoid"] = py::make_tuple(axes.x(), axes.y(), axes.z());
   std::vector<std::string> doubts;
   if (found.alignment) doubts = doubts_about(*found.alignment);
   if (found.fit.quadrature_change.value_or(0) > settled_quadrature)
     doubts.emplace_back("the integral has not settled with the most nodes that there are");
+  const double rms = found.position_rms(), plain_rms = found.plain_position_rms(),
+               diagonal = found.diagonal;
+  py::dict dict =
+      as_dict(Expansion{std::move(found), mapped.mesh().name(), mapped.mesh().provenance()});
+  dict["centre"] = py::none();
+  if (centre) dict["centre"] = py::make_tuple(centre->x(), centre->y(), centre->z());
+  dict["degrees_off"] = centre ? degrees_off(mapped.mesh(), *centre) : 0;
+  dict["rms"] = rms;
+  dict["plain_rms"] = plain_rms;
+  dict["diagonal"] = diagonal;
   dict["doubts"] = doubts;
-  dict["power"] = owning_rows(power_per_degree(found.fit.coefficients));
-  dict["values"] = owning_rows(std::move(found.values));
-  dict["coefficients"] = owning_rows(std::move(found.fit.coefficients));
   return dict;
 }
 
@@ -100,10 +142,39 @@ py::array evaluate(const py::array_t<double, py::array::c_style>& coefficients,
                    const py::array& rows, int threads) {
   bool finite = true;
   const Points directions = normalised(points_of(rows, finite)).points;
-  Functions table(coefficients.shape(0), coefficients.shape(1));
-  std::copy(coefficients.data(), coefficients.data() + coefficients.size(), table.data());
-  return owning_rows(
-      call(py::none(), [=](const Progress&) { return synthesise(table, directions, threads); }));
+  return owning_rows(call(py::none(), [=, table = table_of(coefficients)](const Progress&) {
+    return synthesise(table, directions, threads);
+  }));
+}
+
+py::dict read(const FilePath& path) {
+  HarmonicExpansion found =
+      call(py::none(), [path](const Progress&) { return read_harmonics(path); });
+  found.values.resize(0, found.fit.coefficients.cols());  // there are no vertices
+  Provenance map = found.map;
+  return as_dict(Expansion{std::move(found), path, std::move(map)});
+}
+
+/// In the format of the name.
+std::string text_of(const HarmonicExpansion& harmonics, const Expansion& expansion,
+                    const std::string& path) {
+  const std::string kind = extension_of(path);
+  if (kind == ".csv") return to_csv(harmonics);
+  if (kind == ".coef") return to_coef(harmonics.fit.coefficients);
+  return to_json(harmonics, expansion.mesh, expansion.map);
+}
+
+void write(const Expansion& expansion, const py::array_t<double, py::array::c_style>& coefficients,
+           const FilePath& path, bool geodetic) {
+  HarmonicExpansion harmonics = with_coefficients(expansion, coefficients);
+  harmonics.normalisation =
+      geodetic ? HarmonicNormalisation::FourPi : HarmonicNormalisation::Orthonormal;
+  writing_call(py::none(), [=](const Progress&) {
+    PendingFiles files;
+    files.add(path, text_of(harmonics, expansion, path));
+    files.publish();
+    return true;
+  });
 }
 
 /// A table of the PDS.
@@ -122,11 +193,30 @@ void write_shadr(const FilePath& path, const py::array_t<double, py::array::c_st
 
 }  // namespace
 
+HarmonicExpansion with_coefficients(const Expansion& expansion,
+                                    const py::array_t<double, py::array::c_style>& coefficients) {
+  HarmonicExpansion harmonics = expansion.harmonics;
+  Functions table = table_of(coefficients);
+  const Functions& before = harmonics.fit.coefficients;
+  if (table.cols() != before.cols())
+    throw py::value_error("coefficients: " + std::to_string(before.cols()) +
+                          " columns are needed, one a function");
+  if (table.rows() == before.rows() && table == before) return harmonics;
+  harmonics.fit = {.coefficients = std::move(table), .rms = {}};
+  harmonics.values.resize(0, harmonics.fit.coefficients.cols());
+  harmonics.plain_rms.resize(0);
+  return harmonics;
+}
+
 void declare_figures(py::module_& module) {
+  py::class_<Expansion>(module, "Expansion", "A surface in harmonics, for files.");
   module.def("measure", measure);
+  module.def("growth", growth);
   module.def("expand", expand);
   module.def("evaluate", evaluate);
   module.def("write_shadr", write_shadr);
+  module.def("read_harmonics", read);
+  module.def("write_harmonics", write);
 }
 
 }  // namespace sphparam::python

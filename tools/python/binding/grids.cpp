@@ -7,6 +7,7 @@
 #include "call.h"
 #include "sphparam/remesh/adaptation.h"
 #include "sphparam/remesh/displacement.h"
+#include "sphparam/remesh/harmonic_surface.h"
 #include "sphparam/remesh/levels_of_detail.h"
 #include "sphparam/remesh/remesh.h"
 #include "sphparam/remesh/sphere_grid.h"
@@ -91,6 +92,16 @@ Mapped remesh_on(const Mapped& mapped, const py::object& grid, const std::string
       found = with_grid_texture(found, texture_layout(found.spec().value(), usual_texels), threads);
     return Mapped(found);
   });
+}
+
+Mapped surface_of_harmonics(const Expansion& expansion,
+                            const py::array_t<double, py::array::c_style>& coefficients,
+                            const py::object& grid, int threads) {
+  const GridRequest request = request_of(grid);
+  return call(py::none(),
+              [=, harmonics = with_coefficients(expansion, coefficients)](const Progress&) {
+                return Mapped(harmonic_surface(harmonics, grid_of(request, threads), threads));
+              });
 }
 
 std::vector<Mapped> levels(const Mapped& mapped, int count, int threads,
@@ -222,6 +233,7 @@ void declare_grids(py::module_& module) {
       .def_property_readonly("thin_vertices",
                              [](const Fitted& self) { return self.fit.thin_vertices; });
   module.def("remesh", remesh_on);
+  module.def("harmonic_surface", surface_of_harmonics);
   module.def("levels", levels);
   module.def("fit", fit);
   module.def("displace", displace);

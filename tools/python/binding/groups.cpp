@@ -6,6 +6,8 @@
 #include "binding.h"
 #include "call.h"
 #include "sphparam/group/group.h"
+#include "sphparam/names.h"
+#include "sphparam/records/group_record.h"
 #include "sphparam/remesh/sphere_grid.h"
 
 namespace sphparam::python {
@@ -25,6 +27,9 @@ GroupOptions options_of(const py::dict& values) {
       .take("grid", grid)
       .take("scale", options.scale)
       .take("modes", options.modes)
+      .take("energy", options.energy.kind,
+            {EnergyKind::SymmetricDirichlet, EnergyKind::AngleAndArea},
+            [](EnergyKind kind) { return name_of(kind); })
       .take("threads", options.threads);
   settings.require_all_known();
   options.grid.reset();
@@ -45,6 +50,15 @@ py::dict member_of(const GroupMember& member) {
   return dict;
 }
 
+/// Of each shape on the mean: n×V.
+py::array growths(const Group& group) {
+  RowTable<double, Eigen::Dynamic> rows(std::ssize(group.members),
+                                        group.mean.mesh().vertex_count());
+  for (size_t i = 0; i < group.members.size(); ++i)
+    rows.row(static_cast<Eigen::Index>(i)) = growth_from_mean(group, i).vertices.transpose();
+  return owning_rows(std::move(rows));
+}
+
 /// Tables of one size, one after the other: n×V×3.
 py::array stacked(const std::vector<Points>& tables, Eigen::Index rows) {
   std::vector<double> all;
@@ -61,8 +75,20 @@ py::array list_of(const VectorX& values) {
   return owning(std::vector<double>(values.begin(), values.end()));
 }
 
+/// Name, shapes that have it, mean, deviation.
+py::list scalars_of(const Group& group) {
+  py::list all;
+  for (const GroupScalar& scalar : group.scalars) {
+    std::vector<int> shapes(scalar.shapes.begin(), scalar.shapes.end());
+    all.append(py::make_tuple(as_text(scalar.name), owning(std::move(shapes)), list_of(scalar.mean),
+                              list_of(scalar.deviation)));
+  }
+  return all;
+}
+
 py::dict as_dict(Group&& group) {
   const Eigen::Index count = group.mean.mesh().vertex_count();
+  py::array growth = growths(group);
   py::list members;
   std::vector<Points> aligned;
   for (GroupMember& member : group.members) {
@@ -71,6 +97,8 @@ py::dict as_dict(Group&& group) {
   }
   py::dict dict;
   dict["shapes"] = members;
+  dict["growth"] = growth;
+  dict["scalars"] = scalars_of(group);
   dict["reference"] = Mapped(group.reference);
   dict["mean"] = Mapped(group.mean);
   dict["aligned"] = stacked(aligned, count);

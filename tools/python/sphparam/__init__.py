@@ -46,6 +46,7 @@ from ._figures import (
     Distance,
     Distortion,
     FaceDistortion,
+    GroupScalar,
     HandleLoop,
     Inspection,
     Landmarks,
@@ -57,7 +58,7 @@ from ._group import Group, group
 from ._map import load, map, remeshing_lambda, verify, with_sphere
 from ._map_images import fields
 from ._match import SurfaceMap, match
-from ._measure import measure
+from ._measure import growth, measure
 from ._mesh import Mesh, inspect, read, write
 from ._repair import components, repair
 from ._sphere_map import SphereMap
@@ -66,7 +67,7 @@ from ._wrap import Wrap, wrap
 if TYPE_CHECKING:
     from ._baked import BakedImage
     from ._chart import Chart
-    from ._harmonics import Harmonics
+    from ._harmonics import Harmonics, read_harmonics
     from ._subdivision import SubdivisionFit
 
 __version__: str = _core.version
@@ -86,6 +87,7 @@ __all__ = [
     "Distortion",
     "FaceDistortion",
     "Group",
+    "GroupScalar",
     "HandleLoop",
     "Harmonics",
     "ImageError",
@@ -110,12 +112,14 @@ __all__ = [
     "components",
     "fields",
     "group",
+    "growth",
     "inspect",
     "load",
     "map",
     "match",
     "measure",
     "read",
+    "read_harmonics",
     "remeshing_lambda",
     "repair",
     "verify",
@@ -128,6 +132,7 @@ _later = {
     "BakedImage": "_baked",
     "Chart": "_chart",
     "Harmonics": "_harmonics",
+    "read_harmonics": "_harmonics",
     "SubdivisionFit": "_subdivision",
 }
 

@@ -261,6 +261,19 @@ class Landmarks(NamedTuple):
     """(n, k) of all vertices of each shape that which is nearest in space; it need not be a corner of the face."""
 
 
+class GroupScalar(NamedTuple):
+    """What the vertices of shapes have under one name, on the grid of a group."""
+
+    name: str
+    """What it is called."""
+    shapes: Ints
+    """(k,) the shapes that have it, by their places in the group; two at least."""
+    mean: Floats
+    """(V,) of these."""
+    deviation: Floats
+    """(V,) standard deviation of these."""
+
+
 class BakedFile(NamedTuple):
     """An image file that was baked."""
 

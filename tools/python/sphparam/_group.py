@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence, Tuple
 
 from . import _arrays, _core
 from ._attributes import document
-from ._figures import Landmarks
+from ._figures import GroupScalar, Landmarks
 from ._losses import tell
 from ._map_facts import mapped_of
 from ._numpy import np
@@ -29,6 +30,10 @@ class Group:
         """On the grid, as the template lies."""
         self.aligned: Floats = found["aligned"]
         """(n, V, 3) the shapes on the grid, moved and turned onto the mean; with ``scale`` all of one size."""
+        self.growth: Floats = found["growth"]
+        """(n, V) area about each vertex of ``aligned`` over that of the mean: above 1 where a shape is larger."""
+        self.scalars: Dict[str, GroupScalar] = {of[0]: GroupScalar(*of) for of in found["scalars"]}
+        """Of floating numbers that two shapes or more have under one name, mean and deviation."""
         self.weights: Floats = found["weights"]
         """(V,) mean shares of the area, whose sum is 1."""
         self.deviation: Floats = found["deviation"]
@@ -52,8 +57,10 @@ class Group:
         whoever else is in the group."""
         self.starts: List[str] = [shape["start"] for shape in found["shapes"]]
         """What each way to the template began with."""
-        self.energies: List[float] = [shape["energy"] for shape in found["shapes"]]
-        """Of the last minimisation, where isometry has 2; 0 where there was none."""
+        self.energies: List[float] = [shape["energy"] or math.nan for shape in found["shapes"]]
+        """Of the last minimisation, where isometry has 2; NaN where there was none, as with ``hold``."""
+        self.confidences: List[float] = [shape["confidence"] for shape in found["shapes"]]
+        """In each start: 0 where another is as good, 1 where there is no other."""
         self.resampling_rms: List[float] = [shape["resampling_rms"] for shape in found["shapes"]]
         """How far each shape's own vertices are from it on the grid."""
 
@@ -93,6 +100,7 @@ def group(
     grid: str = "ico:5",
     scale: bool = False,
     modes: int = 3,
+    energy: str = "symmetric-dirichlet",
     threads: int = 0,
     progress: Progress = None,
 ) -> Group:
@@ -119,6 +127,8 @@ def group(
         Bring all to one size: the mean of ``sizes``.
     modes
         At most so many are kept.
+    energy
+        What is minimised: ``"symmetric-dirichlet"`` or ``"angle-and-area"``, as of :func:`match`.
 
     Warnings tell what is to be looked at, with the number of the shape. :meth:`Group.landmarks` finds vertices of
     the template on all shapes.
@@ -135,6 +145,7 @@ def group(
         "grid": _arrays.text(grid, "grid"),
         "scale": _arrays.flag(scale, "scale"),
         "modes": _arrays.whole(modes, "modes", 0, 100),
+        "energy": _arrays.text(energy, "energy"),
         "threads": _arrays.threads(threads),
     }
     with told(progress) as report:

@@ -11,6 +11,7 @@ from ._progress import Progress, told
 
 if TYPE_CHECKING:
     from ._harmonics import Harmonics
+    from ._map_facts import Floats
     from ._sphere_map import SphereMap
     from ._subdivision import SubdivisionFit
 
@@ -60,7 +61,7 @@ class MapGrids(MapFacts):
         names, mode, layout = self._transferred(transfer), _arrays.text(sample, "sample"), _arrays.text(uv, "uv")
         with told(progress) as report:
             made = _core.remesh(
-                self._mapped, _grid(grid), mode, names, _arrays.flag(adaptive, "adaptive"), layout, _arrays.threads(threads), report
+                self._mapped, grid_of(grid), mode, names, _arrays.flag(adaptive, "adaptive"), layout, _arrays.threads(threads), report
             )
         return SphereMap._of(made)
 
@@ -91,7 +92,7 @@ class MapGrids(MapFacts):
 
         names, surface = self._transferred(transfer), _arrays.text(scheme, "scheme")
         with told(progress) as report:
-            made = _core.fit(self._mapped, _grid(grid), surface, names, _arrays.threads(threads), report)
+            made = _core.fit(self._mapped, grid_of(grid), surface, names, _arrays.threads(threads), report)
         return SubdivisionFit._of(made)
 
     def spharm(
@@ -100,7 +101,8 @@ class MapGrids(MapFacts):
         *,
         values: Sequence[str] = (),
         least_squares: bool = True,
-        align: bool = False,
+        align: Union[bool, str] = False,
+        flip_template: Optional[Harmonics] = None,
         radius: bool = False,
         centre: Optional[Tuple[float, float, float]] = None,
         threads: int = 0,
@@ -110,14 +112,18 @@ class MapGrids(MapFacts):
 
         ``values``: names of what vertices carry, expanded too. ``least_squares``: at the vertices;
         else by quadrature. ``align``: sphere and surface turned onto the axes of the first-order
-        ellipsoid, so that coefficients do not depend on how mesh and map lay. ``radius``: the distance from
+        ellipsoid, so that coefficients do not depend on how mesh and map lay; ``"sphere"``: the sphere alone, as SPHARM-PDM has both.
+        ``flip_template``: of the half turns that leave the ellipsoid, that which brings coefficients nearest to these, which are
+        aligned (None: by the surface's skewness). ``radius``: the distance from
         ``centre`` too (None: that of a radial map, else the origin), as planetary science has shapes; of a map of
         ``method="radial"`` by the body's own longitudes and latitudes, and a warning tells how far others are off.
         """
         from ._harmonics import Harmonics
 
+        turned = _alignment(align)
+        flips = _flips(flip_template, turned)
         names = [column for name in _names(values, "values") for column in self.values.columns(name)]
-        degree = _arrays.whole(degree, "degree", 1 if align else 0, 1000)
+        degree = _arrays.whole(degree, "degree", 1 if turned else 0, 1000)
         self._warn_of_few_vertices(degree, least_squares)
         about = None if centre is None else _arrays.three(centre, "centre")
         if about is not None and not radius:
@@ -126,14 +132,13 @@ class MapGrids(MapFacts):
             tell([f"{self.name}: harmonics are of the whole sphere, with what closes the holes"])
         with told(progress) as report:
             found = _core.expand(
-                self._mapped, degree, names, _arrays.flag(least_squares, "least_squares"), _arrays.flag(align, "align"),
+                self._mapped, degree, names, _arrays.flag(least_squares, "least_squares"), turned, flips,
                 _arrays.flag(radius, "radius"), about, _arrays.threads(threads), report,  # fmt: skip
             )
         tell(found["doubts"])
         if found["degrees_off"] >= 1e-4:
             off = f"they are {found['degrees_off']:.3g}° from these (RMS over the surface); method=\"radial\" has them"
             tell([f"the longitudes of these harmonics are the map's, not the body's: {off}"])
-        found["aligned"] = align
         return Harmonics(found)
 
     def _transferred(self, transfer: Union[str, Iterable[str]]) -> List[str]:
@@ -155,7 +160,28 @@ def _names(names: Union[str, Iterable[str]], what: str) -> List[str]:
     return [_arrays.text(name, what) for name in ([names] if isinstance(names, str) else _arrays.listed(names, what, "names"))]
 
 
-def _grid(grid: Any) -> Union[str, _core.Mapped]:
+def _alignment(align: Union[bool, str]) -> str:
+    if isinstance(align, str):
+        if align != "sphere":
+            raise ValueError(f"align: True, or 'sphere', not {align!r}")
+        return align
+    return "surface" if _arrays.flag(align, "align") else ""
+
+
+def _flips(template: Optional[Harmonics], turned: str) -> Optional[Floats]:
+    from ._harmonics import Harmonics
+
+    if template is None:
+        return None
+    if not isinstance(template, Harmonics):
+        raise TypeError(f"flip_template: Harmonics are needed, as sphparam.read_harmonics makes them, not {type(template).__name__}")
+    if not turned:
+        raise ValueError("flip_template: it is for align=True or align='sphere'")
+    return template._table()[:, :3].copy()
+
+
+def grid_of(grid: Any) -> Union[str, _core.Mapped]:
+    """A grid's name, or a map whose directions are one."""
     if isinstance(grid, int) or (isinstance(grid, str) and grid.isdigit()):
         raise TypeError(f"grid: 'ico:{grid}', another one of {_patterns()}, or a map, not {grid!r}")
     if isinstance(grid, str) and not grid.startswith(("ico:", "octa:", "cube:", "uv:", "healpix:")):

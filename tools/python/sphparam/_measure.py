@@ -2,12 +2,27 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any, Tuple
 
 from . import _arrays, _core
 from ._figures import Distance, one_sided
 from ._mesh import any_mesh
 from ._progress import Progress, told
+
+if TYPE_CHECKING:
+    from ._map_facts import Floats
+
+
+def growth(first: Any, second: Any) -> Tuple[Floats, Floats]:
+    """How areas grow from one surface to another of the same faces: of each face (F,), and of the faces about each vertex (V,).
+
+    ``first``, ``second``: meshes as :class:`Mesh` takes them, a pair of arrays among them, or maps; of other faces
+    ValueError. What is told is the second's area over the first's: above 1 it grew; 0 where the first has none.
+    """
+    meshes = [any_mesh(mesh, None) for mesh in (first, second)]
+    for mesh in meshes:
+        mesh._require_sound()
+    return _core.growth(meshes[0]._source, meshes[1]._source)
 
 
 def measure(
