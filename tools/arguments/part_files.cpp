@@ -14,6 +14,7 @@
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/sphere_file.h"
+#include "sphparam/version.h"
 
 namespace sphparam::cli {
 
@@ -126,8 +127,8 @@ std::string file_for_part(const std::string& path, int part) {
   return fs::exists(own) ? own : path;
 }
 
-void report_each(bool of_parts, const std::string& input, Session& session,
-                 const std::function<std::string(int part)>& run) {
+void report_each(const std::string& command, bool of_parts, const std::string& input,
+                 Session& session, const std::function<std::string(int part)>& run) {
   if (!of_parts) {
     const std::string report = run(0);
     session.add_report([&] { return report; });
@@ -136,7 +137,12 @@ void report_each(bool of_parts, const std::string& input, Session& session,
   std::string reports;
   for (const int part : numbers_of_parts(input, session.console))
     reports += (reports.empty() ? "" : ", ") + run(part);
-  session.add_report([&] { return "{\"parts\": [" + reports + "]}\n"; });
+  session.add_report([&] { return report_of_parts(command, reports); });
+}
+
+std::string report_of_parts(const std::string& command, const std::string& reports) {
+  return std::string("{\"sphparam\": \"") + version + "\", \"command\": \"" + command +
+         "\", \"parts\": [" + reports + "]}\n";
 }
 
 }  // namespace sphparam::cli

@@ -33,7 +33,10 @@ std::string file_for_part(const std::string& path, int part);
 
 /// Calls `run` with the number of each part, 0 alone where it is not of parts; what it returns is
 /// what --json says, of parts as a list.
-void report_each(bool of_parts, const std::string& input, Session& session,
-                 const std::function<std::string(int part)>& run);
+void report_each(const std::string& command, bool of_parts, const std::string& input,
+                 Session& session, const std::function<std::string(int part)>& run);
+
+/// What --json of a subcommand says of parts: their reports, with commas between them.
+std::string report_of_parts(const std::string& command, const std::string& reports);
 
 }  // namespace sphparam::cli

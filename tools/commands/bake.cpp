@@ -168,7 +168,7 @@ int run_bake(BakeArguments& arguments) {
     throw UsageMistake("--from and --for: the images are for the mesh itself with --from");
   Session session(arguments);
   Words lines;
-  report_each(arguments.all_components, arguments.input, session, [&](int part) {
+  report_each("bake", arguments.all_components, arguments.input, session, [&](int part) {
     return bake_one(part > 0 ? of_part(arguments, part) : arguments, session, lines);
   });
   session.publish();

@@ -318,7 +318,7 @@ int run_export(ExportArguments& arguments) {
   check_export_arguments(arguments);
   Session session(arguments);
   Words lines;
-  report_each(arguments.all_components, arguments.input, session, [&](int part) {
+  report_each("export", arguments.all_components, arguments.input, session, [&](int part) {
     return export_one(part > 0 ? of_part(arguments, part) : arguments, session, lines);
   });
   session.publish();

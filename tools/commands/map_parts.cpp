@@ -69,7 +69,7 @@ class PartsRun {
                              (written_ > 0 ? ", not even the maps told above" : ""));
       std::rethrow_exception(refused_);
     }
-    session_.add_report([&] { return "{\"parts\": [" + reports_ + "]}\n"; });
+    session_.add_report([&] { return report_of_parts("map", reports_); });
     session_.publish();
     tell();
     return code_;

@@ -16,6 +16,7 @@
 #include "number_text.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/parallel.h"
+#include "sphparam/version.h"
 
 namespace sphparam {
 
@@ -185,6 +186,8 @@ std::string to_json(const BatchStatus& status) {
                         {"count", group.count},
                         {"ids", group.ids}});
   const nlohmann::ordered_json json = {
+      {"sphparam", version},
+      {"command", "batch status"},
       {"plan", status.plan},
       {"items", status.items},
       {"done", status.done},

@@ -77,7 +77,8 @@ std::string to_json(const BakeRecord& record) {
   const BakeSettings& settings = record.settings;
   const std::optional<double>& distance = record.baked.target_distance;
   Json json = {
-      {"version", version},
+      {"sphparam", version},
+      {"command", "bake"},
       {"source", {{"file", record.input}, {"triangles", record.source.mesh().face_count()}}},
       {"for", record.target.empty() ? Json() : Json(record.target)},
       {"for_distance", distance ? Json(*distance) : Json()},
