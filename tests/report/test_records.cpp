@@ -296,7 +296,7 @@ TEST_CASE("harmonics_record: coefficients come back exactly, as JSON and as a ta
   const HarmonicExpansion expansion = expand_in_harmonics(mapped, {}, {.degree = 2});
   const Json json = Json::parse(to_json(expansion, "ball.ply", {{"method", "none"}}));
   CHECK(keys_of(json) ==
-        "sphparam,mesh,map,degree,basis,fit,iterations,position_rms,position_rms_relative,"
+        "sphparam,command,mesh,map,degree,basis,fit,iterations,position_rms,position_rms_relative,"
         "position_rms_unweighted,rms,first_order_ellipsoid,functions");
   CHECK(json["map"]["method"] == "none");
   const Functions& coefficients = expansion.fit.coefficients;
@@ -374,7 +374,7 @@ TEST_CASE("harmonics_record: what was told is read again, in either normalisatio
   // Of it nothing is told that is not known; what is comes back again.
   const std::string again = to_json(same, "ball.ply", same.map);
   CHECK(keys_of(Json::parse(again)) ==
-        "sphparam,mesh,map,degree,basis,first_order_ellipsoid,functions");
+        "sphparam,command,mesh,map,degree,basis,first_order_ellipsoid,functions");
   CHECK(parse_harmonics(again, "b.json").fit.coefficients == same.fit.coefficients);
   const HarmonicExpansion coef =
       parse_harmonics("{ 4,{1, 2, 3},\n{4, 5, 6},\n{0, 0, 0},\n{0, 0, 0}}", "b.COEF");

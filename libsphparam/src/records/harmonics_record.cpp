@@ -214,6 +214,7 @@ std::string to_json(const HarmonicExpansion& expansion, const std::string& mesh,
     functions.push_back(std::move(function));
   }
   Json json = {{"sphparam", version},
+               {"command", "spharm"},
                {"mesh", mesh},
                {"map", pairs_json(map)},
                {"degree", expansion.degree()},
