@@ -106,8 +106,9 @@ TEST_CASE("whole surface: a sphere is itself, one with holes is mended, a soup i
   const WholeSurface wrapped = whole_surface(source_of(two_balls()), coarse());
   CHECK(wrapped.by == WholeBy::Wrap);
   CHECK(wrapped.found.front() == "it is in 2 parts");
-  CHECK(wrapped.done.front() ==
-        "a skin is drawn around it, 0.313 % of its size away, across what is narrower than 6.25 %");
+  CHECK(
+      wrapped.done.front() ==
+      "a skin is drawn around it, 0.313 % of its size away; gaps narrower than 6.25 % are closed");
   CHECK(wrapped.details.size() > wrapped.done.size() + wrapped.found.size());
   CHECK(wrapped.mapped.mesh().face_count() <= 2000);
   CHECK(wrapped.mapped.certificate().bijective());

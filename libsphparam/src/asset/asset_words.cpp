@@ -40,8 +40,8 @@ std::string plain_words(const RepairAction& action) { return without_places(acti
 
 std::vector<std::string> plain_words(const Wrap& wrap, double size) {
   std::vector<std::string> lines = {"a skin is drawn around it, " + percent(wrap.gap / size) +
-                                    " of its size away, across what is narrower than " +
-                                    percent(2 * wrap.distance / size)};
+                                    " of its size away; gaps narrower than " +
+                                    percent(2 * wrap.distance / size) + " are closed"};
   if (wrap.parts > 1)
     lines.push_back(counted(wrap.parts, "part") + " that lie apart are joined by thin bridges");
   if (wrap.handles > 0)
