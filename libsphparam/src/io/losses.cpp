@@ -112,6 +112,43 @@ bool have_same_materials(const MeshFile& written, const MeshFile& read) {
   return true;
 }
 
+void compare_properties(const MeshFile& written, const MeshFile& read,
+                        std::vector<std::string>& losses) {
+  const auto tell = [&](const std::vector<std::string>& names, const std::string& whose) {
+    if (!names.empty()) add_loss(losses, enumerated(names) + " of " + whose);
+  };
+  std::vector<std::string> renamed;
+  tell(gone(written.vertex_properties, read.vertex_properties, read, renamed), "vertices");
+  std::vector<std::string> of_faces =
+      gone(written.face_properties, read.face_properties, read, renamed);
+  if (have_same_materials(written, read)) std::erase(of_faces, "material");
+  tell(of_faces, "faces");
+  tell(renamed, "properties whose numbers are kept without their names");
+}
+
+void compare_labels(const MeshFile& written, const MeshFile& read,
+                    std::vector<std::string>& losses) {
+  for (const auto properties : {&MeshFile::vertex_properties, &MeshFile::face_properties}) {
+    const std::vector<std::string> names = no_labels_now(written.*properties, read.*properties);
+    if (!names.empty()) add_loss(losses, words_of_lost_labels(names));
+  }
+}
+
+/// What corners have, which vertices may have instead.
+void compare_corners(const MeshFile& written, const MeshFile& read,
+                     std::vector<std::string>& losses) {
+  const auto tell = [&](bool is_lost, const char* what) {
+    if (is_lost) add_loss(losses, what);
+  };
+  tell(written.corner_texcoords && !read.corner_texcoords && !read.find_vertex_property("s"),
+       "texture coordinates of corners");
+  tell(written.corner_normals && !read.corner_normals && !read.find_vertex_property("nx"),
+       "normals of corners");
+  tell(written.second_texcoords && !read.second_texcoords, "second texture coordinates");
+  tell(corner_colours(written) && !corner_colours(read), "more than one colour of a vertex");
+  tell(written.corner_tangents && !read.corner_tangents, "tangents");
+}
+
 /// A PLY file names the images of its texture by its comments; they were there when it was read.
 bool still_names_pages(const MeshFile& read) {
   return read.format.starts_with("PLY") && has_texture_pages(read);
@@ -122,6 +159,26 @@ bool still_names_library(const MeshFile& read) {
   return std::ranges::any_of(read.notes, [](const std::string& note) {
     return note.find("colours and textures of ") != std::string::npos;
   });
+}
+
+void compare_materials(const MeshFile& written, const MeshFile& read,
+                       std::vector<std::string>& losses) {
+  if (written.materials.size() > read.materials.size())
+    add_loss(losses, counted(std::ssize(written.materials), "material"));
+  if (!written.base_colours.empty() && read.base_colours.empty() && !still_names_pages(read) &&
+      !still_names_library(read))
+    add_loss(losses, "colours and textures of materials");
+}
+
+void compare_comments(const MeshFile& written, const MeshFile& read,
+                      std::vector<std::string>& losses) {
+  const auto lines = [](const MeshFile& file) {
+    return std::ranges::count_if(file.comments, [](const std::string& line) {
+      return !line.starts_with("sphparam ") && !says_vertices_of_file(line);
+    });
+  };
+  if (const long missing = lines(written) - lines(read); missing > 0)
+    add_loss(losses, counted(missing, "comment"));
 }
 
 }  // namespace
@@ -138,46 +195,13 @@ std::vector<std::string> losses_among(const std::vector<std::string>& notes) {
 }
 
 std::vector<std::string> losses_of_writing(const MeshFile& written, const MeshFile& read) {
-  std::vector<std::string> losses, renamed;
+  std::vector<std::string> losses;
   compare_positions(written, read, losses);
-  const auto tell = [&](const std::vector<std::string>& names, const std::string& whose) {
-    if (!names.empty()) add_loss(losses, enumerated(names) + " of " + whose);
-  };
-  tell(gone(written.vertex_properties, read.vertex_properties, read, renamed), "vertices");
-  std::vector<std::string> of_faces =
-      gone(written.face_properties, read.face_properties, read, renamed);
-  if (have_same_materials(written, read)) std::erase(of_faces, "material");
-  tell(of_faces, "faces");
-  tell(renamed, "properties whose numbers are kept without their names");
-  for (const auto& [before, after] :
-       {std::pair(&written.vertex_properties, &read.vertex_properties),
-        {&written.face_properties, &read.face_properties}})
-    if (const std::vector<std::string> names = no_labels_now(*before, *after); !names.empty())
-      add_loss(losses, words_of_lost_labels(names));
-  const auto has_any = [&](const MeshFile& file, const char* name) {
-    return file.find_vertex_property(name) != nullptr;
-  };
-  if (written.corner_texcoords && !read.corner_texcoords && !has_any(read, "s"))
-    add_loss(losses, "texture coordinates of corners");
-  if (written.corner_normals && !read.corner_normals && !has_any(read, "nx"))
-    add_loss(losses, "normals of corners");
-  if (written.second_texcoords && !read.second_texcoords)
-    add_loss(losses, "second texture coordinates");
-  if (corner_colours(written) && !corner_colours(read))
-    add_loss(losses, "more than one colour of a vertex");
-  if (written.corner_tangents && !read.corner_tangents) add_loss(losses, "tangents");
-  if (written.materials.size() > read.materials.size())
-    add_loss(losses, counted(static_cast<long>(written.materials.size()), "material"));
-  if (!written.base_colours.empty() && read.base_colours.empty() && !still_names_pages(read) &&
-      !still_names_library(read))
-    add_loss(losses, "colours and textures of materials");
-  const auto lines = [](const MeshFile& file) {
-    return std::count_if(file.comments.begin(), file.comments.end(), [](const std::string& line) {
-      return !line.starts_with("sphparam ") && !says_vertices_of_file(line);
-    });
-  };
-  if (const long missing = lines(written) - lines(read); missing > 0)
-    add_loss(losses, counted(missing, "comment"));
+  compare_properties(written, read, losses);
+  compare_labels(written, read, losses);
+  compare_corners(written, read, losses);
+  compare_materials(written, read, losses);
+  compare_comments(written, read, losses);
   return losses;
 }
 
