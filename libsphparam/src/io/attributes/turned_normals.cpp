@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "mesh/repair/repair_kinds.h"
+
 // Whether a face of the input was turned over, its corners say: of what is left of it, in which
 // order. Whether its normals go with it, all of them say together: single ones may lie nearly
 // within their faces, or be odd.
@@ -13,8 +15,7 @@ namespace {
 using Flags = std::vector<char>;
 
 bool has(const RepairedMesh& repaired, RepairKind kind) {
-  return std::ranges::any_of(repaired.actions,
-                             [kind](const RepairAction& action) { return action.kind == kind; });
+  return count_of(repaired.actions, kind) > 0;
 }
 
 /// Of every corner, its weights in the face of the input that it is of.

@@ -13,6 +13,7 @@
 #include "io/repair/mesh_part.h"
 #include "io/repair/repaired_file.h"
 #include "mesh/defect_places.h"
+#include "mesh/repair/repair_kinds.h"
 #include "mesh/repair/weld_shares.h"
 #include "mesh/triangle_geometry.h"
 #include "number_text.h"
@@ -47,8 +48,7 @@ std::vector<RepairAction> by_file_numbers(std::vector<RepairAction> actions,
       action.message.resize(action.message.size() - before.size());
       action.message += places_of(action);
     }
-    const bool made_by_welding = action.kind == RepairKind::InvalidFaceRemoved ||
-                                 action.kind == RepairKind::DuplicateFaceRemoved;
+    const bool made_by_welding = info_of(action.kind).trait == RepairTrait::MayFollowWelding;
     if (source.welded && made_by_welding) action.message = "after welding, " + action.message;
   }
   return actions;
@@ -246,9 +246,7 @@ Tried tried(const MeshSource& source, RepairOptions options) {
 long changes_in(const RepairTrial& trial) {
   long changes = 0;
   for (const RepairAction& done : trial.actions) {
-    const bool makes_one =
-        done.kind == RepairKind::VertexWelded || done.kind == RepairKind::UnusedVertexDropped;
-    if (!makes_one) changes += done.count;
+    if (info_of(done.kind).trait != RepairTrait::KeepsSurface) changes += done.count;
   }
   return changes;
 }

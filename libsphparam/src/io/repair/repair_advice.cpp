@@ -5,6 +5,7 @@
 
 #include "io/attributes/appearance.h"
 #include "io/shell_word.h"
+#include "mesh/repair/repair_kinds.h"
 #include "number_text.h"
 #include "sphparam/io/mesh_refusal.h"
 #include "sphparam/names.h"
@@ -105,8 +106,7 @@ std::string repair_advice(const RepairTrial& trial, const std::string& path,
   const std::string kept = kept_line(trial.parts, trial.actions);
   const std::optional<double> share =
       trial.parts.refused ? kept_share(trial) : std::optional<double>();
-  const auto closes = [](const RepairAction& done) { return done.kind == RepairKind::HoleFilled; };
-  const bool fills = std::any_of(trial.actions.begin(), trial.actions.end(), closes);
+  const bool fills = count_of(trial.actions, RepairKind::HoleFilled) > 0;
   const std::string plain =
       "sphparam map " + shell_file(path) + " " + options + " -o mended.sph.ply";
   return choice + wrap + "  " + options + " would mend it, as in `" +

@@ -1,13 +1,12 @@
 #include "io/repair/repaired_file.h"
 
-#include <algorithm>
-
 #include "io/attributes/corner_colours.h"
 #include "io/attributes/mixed_colour.h"
 #include "io/attributes/patched_texture.h"
 #include "io/attributes/turned_normals.h"
 #include "io/attributes/weightiest_label.h"
 #include "io/repair/mesh_part.h"
+#include "mesh/repair/repair_kinds.h"
 #include "sphparam/io/fillers.h"
 
 // Every table is gathered by the ids that the repair returned. The ids of the file are a property
@@ -156,9 +155,7 @@ std::vector<Vertex> welded_vertices(const MeshFile& file, const RepairedMesh& re
 
 /// As exact copies do (welding.h), where a vertex was welded onto one of another colour.
 void keep_colours_of_welded(MeshFile& result, const MeshFile& file, const RepairedMesh& repaired) {
-  const bool welds = std::ranges::any_of(repaired.actions, [](const RepairAction& action) {
-    return action.kind == RepairKind::VertexWelded;
-  });
+  const bool welds = count_of(repaired.actions, RepairKind::VertexWelded) > 0;
   for (const char* name : {"red", "green", "blue"})
     if (!welds || !file.find_vertex_property(name)) return;
   const std::vector<Vertex> welded = welded_vertices(file, repaired);

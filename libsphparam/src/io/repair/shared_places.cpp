@@ -6,6 +6,7 @@
 
 #include "io/polygons/distinct_rows.h"
 #include "io/shell_word.h"
+#include "mesh/repair/repair_kinds.h"
 #include "number_text.h"
 
 // Each vertex is given the number of its place, as a reader of such a format does it, and edges
@@ -13,11 +14,6 @@
 
 namespace sphparam {
 namespace {
-
-bool splits(RepairKind kind) {
-  return kind == RepairKind::EdgeSplit || kind == RepairKind::VertexSplit ||
-         kind == RepairKind::HandleCut || kind == RepairKind::HandleFilled;
-}
 
 /// Those that stand more than twice.
 long crowded(std::vector<std::pair<int, int>> edges) {
@@ -59,9 +55,10 @@ SharedPlaces shared_places(const TriangleMesh& mesh) {
 }
 
 std::string shared_places_line(const MeshSource& mended) {
-  const bool split = std::ranges::any_of(
-      mended.repairs, [](const RepairAction& repair) { return splits(repair.kind); });
-  if (!split) return "";
+  const bool has_copies = std::ranges::any_of(mended.repairs, [](const RepairAction& repair) {
+    return info_of(repair.kind).trait == RepairTrait::CopiesVertices;
+  });
+  if (!has_copies) return "";
   const SharedPlaces shared = shared_places(mended.file.mesh);
   if (shared.vertices == 0) return "";
   const std::string welded =
