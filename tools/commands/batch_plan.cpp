@@ -17,6 +17,7 @@
 #include "io/files/program_path.h"
 #include "io/shell_word.h"
 #include "number_text.h"
+#include "parsed_number.h"
 #include "sphparam/batch/plan.h"
 #include "sphparam/batch/run.h"
 #include "sphparam/batch/status.h"
@@ -167,11 +168,8 @@ int chunk_for(std::size_t items, double seconds_an_item) {
 }
 
 int chunk_of(const std::string& text) {
-  int chunk = 0;
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, chunk);
-  if (error != std::errc{} || stop != end || chunk < 1)
-    throw UsageMistake("--chunk: expected auto or a number from 1, not " + text);
+  const int chunk = parsed<int>(text).value_or(0);
+  if (chunk < 1) throw UsageMistake("--chunk: expected auto or a number from 1, not " + text);
   return chunk;
 }
 

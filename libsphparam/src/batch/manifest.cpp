@@ -1,6 +1,5 @@
 #include "batch/manifest.h"
 
-#include <charconv>
 #include <filesystem>
 #include <limits>
 
@@ -9,6 +8,7 @@
 #include "batch/record.h"
 #include "batch/tables.h"
 #include "io/files/file_bytes.h"
+#include "parsed_number.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/safe_file.h"
 
@@ -32,9 +32,9 @@ std::string line_of(const std::vector<std::string>& fields) {
 
 template <class Number>
 bool read_whole(const std::string& text, Number& number) {
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, number);
-  return error == std::errc{} && stop == end;
+  const std::optional<Number> whole = parsed<Number>(text);
+  if (whole) number = *whole;
+  return whole.has_value();
 }
 
 class ManifestReader {

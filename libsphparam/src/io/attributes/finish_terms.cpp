@@ -1,10 +1,9 @@
 #include "io/attributes/finish_terms.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 
 #include "number_text.h"
+#include "parsed_number.h"
 
 namespace sphparam {
 namespace {
@@ -36,10 +35,9 @@ std::vector<std::string_view> pieces(std::string_view text, char between) {
 std::vector<double> numbers_in(std::string_view text) {
   std::vector<double> numbers;
   for (const std::string_view word : pieces(text, ',')) {
-    double value = 0;
-    const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc{} || stop != word.data() + word.size()) return {};
-    numbers.push_back(value);
+    const std::optional<double> value = parsed<double>(word);
+    if (!value) return {};
+    numbers.push_back(*value);
   }
   return numbers;
 }

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <sstream>
 #include <string_view>
 
 #include "io/formats/freesurfer_comments.h"
+#include "parsed_number.h"
 
 namespace sphparam {
 namespace {
@@ -52,11 +52,8 @@ std::optional<std::string> footer_value(const std::vector<std::string>& comments
 }
 
 bool is_number(std::string_view word) {
-  double value = 0;
-  if (word.starts_with("+")) word.remove_prefix(1);
-  const char* const end = word.data() + word.size();
-  const auto [stop, error] = std::from_chars(word.data(), end, value);
-  return error == std::errc{} && stop == end && std::isfinite(value);
+  const std::optional<double> value = parsed<double>(word.substr(word.starts_with('+')));
+  return value && std::isfinite(*value);
 }
 
 /// Three numbers, as they are written; none where the text has something else.

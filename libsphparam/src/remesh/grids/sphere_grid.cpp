@@ -3,12 +3,12 @@
 #include "sphparam/remesh/sphere_grid.h"
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
 
+#include "parsed_number.h"
 #include "remesh/grids/grid_family.h"
 #include "sphparam/errors.h"
 #include "sphparam/io/mapped_mesh.h"
@@ -21,12 +21,10 @@ namespace sphparam {
 
 namespace {
 
-/// The whole of a text as a number that is not negative.
+/// Not a negative one.
 std::optional<int> whole_number(std::string_view text) {
-  int value = 0;
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool all = error == std::errc{} && stop == text.data() + text.size() && value >= 0;
-  return all ? std::optional(value) : std::nullopt;
+  const std::optional<int> value = parsed<int>(text);
+  return value.value_or(-1) >= 0 ? value : std::nullopt;
 }
 
 /// "N", or "WxH".

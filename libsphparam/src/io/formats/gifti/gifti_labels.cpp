@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "parsed_number.h"
 #include "sphparam/io/mesh_file.h"
 
 namespace sphparam {
@@ -17,13 +18,6 @@ std::string_view take_word(std::string_view& text) {
   const std::string_view word = text.substr(0, blank);
   text.remove_prefix(std::min(blank + 1, text.size()));
   return word;
-}
-
-template <class Number>
-bool parse(std::string_view word, Number& number) {
-  const char* const end = word.data() + word.size();
-  const auto [stop, error] = std::from_chars(word.data(), end, number);
-  return error == std::errc{} && stop == end;
 }
 
 std::string shortest(float number) {
@@ -52,13 +46,18 @@ std::optional<Label> label_in(std::string_view comment) {
 
 std::optional<Label> parse_label(std::string_view text) {
   Label label;
-  if (!parse(take_word(text), label.key)) return std::nullopt;
+  const auto key = parsed<decltype(label.key)>(take_word(text));
+  if (!key) return std::nullopt;
+  label.key = *key;
   if (text == "-" || text.starts_with("- ")) {
     take_word(text);
   } else {
     label.colour.emplace();
-    for (float& channel : *label.colour)
-      if (!parse(take_word(text), channel) || !std::isfinite(channel)) return std::nullopt;
+    for (float& channel : *label.colour) {
+      const std::optional<float> value = parsed<float>(take_word(text));
+      if (!value || !std::isfinite(*value)) return std::nullopt;
+      channel = *value;
+    }
   }
   label.name = text;
   return label;

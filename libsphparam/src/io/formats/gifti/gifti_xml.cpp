@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 
 #include "io/formats/xml_events.h"
+#include "parsed_number.h"
 
 // A stack of element names says where we are. libgiftiio is not used for reading: it prints and
 // goes on where data is corrupt or cut short, and trusts sizes.
@@ -122,12 +122,10 @@ class Parser : public XmlEvents {
 
   template <class Number>
   Number number(std::string_view text, const char* what) const {
-    Number value = 0;
-    const char* const end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, value);
-    if (error != std::errc{} || stop != end || !std::isfinite(static_cast<double>(value)))
+    const std::optional<Number> value = parsed<Number>(text);
+    if (!value || !std::isfinite(static_cast<double>(*value)))
       fail(std::string("expected ") + what + ", found " + quoted(text));
-    return value;
+    return *value;
   }
 
   /// At most 2³¹ − 1, so that products of two cannot overflow.

@@ -1,7 +1,6 @@
 #include "io/formats/obj/obj_materials.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -13,6 +12,7 @@
 #include "io/formats/gltf/gltf_files.h"
 #include "lower_case.h"
 #include "number_text.h"
+#include "parsed_number.h"
 
 // Libraries are text from strangers, and written by hand more often than the rest: a line that
 // makes no sense is passed over, and what a name means is decided as other readers do.
@@ -31,10 +31,8 @@ struct Material {
 
 /// A finite one.
 std::optional<double> number(std::string_view word) {
-  double value = 0;
-  const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  const bool whole = error == std::errc{} && stop == word.data() + word.size();
-  return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
+  const std::optional<double> value = parsed<double>(word);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 /// Words that follow an option of an image; scales, offsets and turbulence have one to three

@@ -1,7 +1,8 @@
 #include "io/formats/ply/ply_header.h"
 
 #include <algorithm>
-#include <charconv>
+
+#include "parsed_number.h"
 
 namespace sphparam {
 namespace {
@@ -127,11 +128,8 @@ class HeaderParser {
   }
 
   std::int64_t parse_count(std::string_view word) const {
-    std::int64_t count = 0;
-    const char* const end = word.data() + word.size();
-    const auto [stop, error] = std::from_chars(word.data(), end, count);
-    if (error != std::errc{} || stop != end || word.empty() || count < 0)
-      fail("expected a count, found " + quoted(word));
+    const std::int64_t count = parsed<std::int64_t>(word).value_or(-1);
+    if (count < 0) fail("expected a count, found " + quoted(word));
     return count;
   }
 

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <limits>
 #include <optional>
+
+#include "parsed_number.h"
 
 namespace sphparam {
 namespace {
@@ -65,13 +66,6 @@ class FilledLines {
   std::string_view text_;
 };
 
-std::optional<std::int64_t> whole(std::string_view word) {
-  std::int64_t value = 0;
-  const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc{} || stop != word.data() + word.size()) return std::nullopt;
-  return value;
-}
-
 /// With an E where Fortran writes a D.
 std::string with_e(std::string_view word) {
   std::string text(word);
@@ -81,15 +75,11 @@ std::string with_e(std::string_view word) {
 }
 
 std::optional<double> real(std::string_view word) {
-  const std::string text = with_e(word.starts_with('+') ? word.substr(1) : word);
-  double value = 0;
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || stop != text.data() + text.size()) return std::nullopt;
-  return value;
+  return parsed<double>(with_e(word.starts_with('+') ? word.substr(1) : word));
 }
 
-bool is_count(std::string_view word) { return whole(word).value_or(0) > 0; }
-bool is_index(std::string_view word) { return whole(word).value_or(-1) >= 0; }
+bool is_count(std::string_view word) { return parsed<std::int64_t>(word).value_or(0) > 0; }
+bool is_index(std::string_view word) { return parsed<std::int64_t>(word).value_or(-1) >= 0; }
 
 bool are_counts(const Words& line, std::size_t count) {
   return line.count == count && line.all(is_count);
@@ -119,7 +109,7 @@ ShapeTable shape_table(std::string_view text) {
   FilledLines lines(text);
   const Words first = lines.next();
   if (!are_counts(first, 1) && !are_counts(first, 2)) return ShapeTable::None;
-  const std::int64_t count = *whole(first.words[0]);
+  const std::int64_t count = *parsed<std::int64_t>(first.words[0]);
   const Words second = lines.next();
   const bool two_lines = first.count == 1 && are_counts(second, 1);
   if (!is_vector(two_lines ? lines.next() : second)) return ShapeTable::None;

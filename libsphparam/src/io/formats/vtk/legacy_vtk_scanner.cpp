@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <bit>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <type_traits>
 
+#include "parsed_number.h"
 #include "sphparam/io/read_options.h"
 
 // Data begins after the line end that closes the words before it. Types are those of the machines
@@ -130,14 +130,13 @@ std::string LegacyVtkScanner::name_word() { return decoded(word()); }
 
 std::int64_t LegacyVtkScanner::count(const char* what) {
   const std::string_view text = word();
-  std::int64_t value = 0;
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || stop != text.data() + text.size())
+  const std::optional<std::int64_t> value = parsed<std::int64_t>(text);
+  if (!value)
     fail("expected " + std::string(what) + ", found " +
          (text.empty() ? "the end of the file" : quoted(text)));
-  if (value < 0) fail("negative " + std::string(what));
-  if (value > std::numeric_limits<int>::max()) fail(std::string(what) + " is out of range");
-  return value;
+  if (*value < 0) fail("negative " + std::string(what));
+  if (*value > std::numeric_limits<int>::max()) fail(std::string(what) + " is out of range");
+  return *value;
 }
 
 /// Data begins in the next line.
@@ -196,10 +195,10 @@ std::vector<double> LegacyVtkScanner::text_numbers(VtkType type, std::size_t cou
   for (double& value : values) {
     std::string_view text = word();
     if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
-    const char* const end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, value);
-    if (error != std::errc{} || stop != end || !fit(value, type))
+    std::optional<double> found = parsed<double>(text);
+    if (!found || !fit(*found, type))
       fail("expected a number, found " + (text.empty() ? "the end of the file" : quoted(text)));
+    value = *found;
   }
   return values;
 }

@@ -1,10 +1,9 @@
 #include "io/formats/vtk/vtk_document.h"
 
-#include <charconv>
-#include <limits>
 #include <utility>
 
 #include "io/formats/xml_events.h"
+#include "parsed_number.h"
 
 // VTKFile > PolyData > Piece > { PointData, CellData, Points, Verts, Lines, Strips, Polys }, each
 // with DataArrays. AppendedData comes last and may be raw bytes, which are no XML: reading as XML
@@ -99,10 +98,8 @@ class Builder : public XmlEvents {
                       std::int64_t otherwise) const {
     const std::string_view text = attributes.value(key);
     if (text.empty()) return otherwise;
-    int value = 0;
-    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || stop != text.data() + text.size() || value < 0)
-      fail(std::string(key) + " is " + quoted(text) + ", no whole number in range");
+    const int value = parsed<int>(text).value_or(-1);
+    if (value < 0) fail(std::string(key) + " is " + quoted(text) + ", no whole number in range");
     return value;
   }
 
@@ -130,11 +127,9 @@ class Builder : public XmlEvents {
   }
 
   std::uint64_t offset(std::string_view text) const {
-    std::uint64_t value = 0;
-    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || stop != text.data() + text.size())
-      fail("offset is " + quoted(text) + ", no whole number");
-    return value;
+    const std::optional<std::uint64_t> value = parsed<std::uint64_t>(text);
+    if (!value) fail("offset is " + quoted(text) + ", no whole number");
+    return *value;
   }
 
   void finish_array() {
