@@ -19,8 +19,6 @@ class SourceNormal {
   /// Unit. Of a sample its point, step and below are looked at.
   Vector3 at(const SurfaceSample& sample) const;
 
-  bool has_maps() const { return maps_ != nullptr; }
-
  private:
   struct Maps;
   Vector3 mapped(const SurfaceSample& sample) const;
