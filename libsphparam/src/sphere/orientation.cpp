@@ -1,14 +1,10 @@
 #include "sphparam/sphere/orientation.h"
 
-#include <algorithm>
 #include <array>
-#include <bit>
-#include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
-#include <cstdint>
-#include <limits>
 
-#include "sphere/ieee_arithmetic.h"
+#include "exact_integers.h"
+#include "ieee_arithmetic.h"
 
 // The filter. Let u = 2⁻⁵³ and all entries exact. Each of the six products x·y is off by at most u
 // of itself, each difference of two by another u, the product with the third factor by another, and
@@ -24,35 +20,9 @@
 namespace sphparam {
 namespace {
 
-using BigInteger = boost::multiprecision::cpp_int;
-
-struct Scaled {
-  std::int64_t mantissa;
-  int exponent;
-};
-
-/// x = mantissa·2^exponent, from its bits: arithmetic may take a subnormal x for zero.
-Scaled scaled(double x) {
-  constexpr std::uint64_t one = std::uint64_t{1} << 52;
-  const auto bits = std::bit_cast<std::uint64_t>(x);
-  const auto biased = static_cast<int>(bits >> 52 & 0x7ff);
-  const auto size = static_cast<std::int64_t>((bits & (one - 1)) | (biased > 0 ? one : 0));
-  return {bits >> 63 ? -size : size, std::max(biased, 1) - 1075};
-}
-
 /// A row scaled by a power of two to integers: the sign of the determinant does not change.
 std::array<BigInteger, 3> integer_row(const Vector3& row) {
-  const std::array<Scaled, 3> entries{scaled(row[0]), scaled(row[1]), scaled(row[2])};
-  int lowest = std::numeric_limits<int>::max();
-  for (const Scaled& entry : entries) {
-    if (entry.mantissa != 0) lowest = std::min(lowest, entry.exponent);
-  }
-  std::array<BigInteger, 3> result;
-  for (size_t i = 0; i < 3; ++i) {
-    result[i] = entries[i].mantissa;
-    if (entries[i].mantissa != 0) result[i] <<= entries[i].exponent - lowest;
-  }
-  return result;
+  return as_integers<3>({row[0], row[1], row[2]});
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "sphere/ieee_arithmetic.h"
+#include "ieee_arithmetic.h"
 #include "sphparam/sphere/orientation.h"
 
 // Shewchuk's first filter (1997, Section 4.3): with δ = 2⁻⁵³ the differences, products and the sum

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "ieee_arithmetic.h"
 #include "lanes.h"
-#include "sphere/ieee_arithmetic.h"
 
 // The one guard of all sweeps and Newton steps. They take a step only if
 //   ½ det(x, A, B) > margin·(|A|² + |B|²) + least,   A = p − x, B = q − x,

@@ -6,8 +6,8 @@
 #include "embedding/energy/energy_terms.h"
 #include "embedding/energy/shape_projection.h"
 #include "embedding/energy/triangle_derivatives.h"
+#include "ieee_arithmetic.h"
 #include "lanes.h"
-#include "sphere/ieee_arithmetic.h"
 
 // Energy, gradient and Hessian of eight triangles at a time.
 

@@ -5,7 +5,7 @@
 
 #include "embedding/energy/gathered_lanes.h"
 #include "embedding/energy/ring_derivatives.h"
-#include "sphere/ieee_arithmetic.h"
+#include "ieee_arithmetic.h"
 #include "sphparam/parallel.h"
 
 // The inner loop of the progressive embedding: the vertices of a pack move at once, one a lane,

@@ -6,7 +6,7 @@
 
 // The unit box is cut into as many cells as there are faces, within limits; a face is in all cells
 // that its box touches. Cells are larger where that would be too many, as of long faces that lie
-// across the axes. Two triangles cross where a side of one passes through the other.
+// across the axes.
 
 namespace sphparam {
 namespace {
@@ -21,25 +21,7 @@ int side_of(long count) {
   return static_cast<int>(side);
 }
 
-double volume(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
-  return (b - a).cross(c - a).dot(d - a);
-}
-
-bool passes(const Vector3& p, const Vector3& q, const SurfaceCells::Triangle& t) {
-  if (!(volume(t[0], t[1], t[2], p) * volume(t[0], t[1], t[2], q) < 0)) return false;
-  const double u = volume(p, q, t[0], t[1]), v = volume(p, q, t[1], t[2]),
-               w = volume(p, q, t[2], t[0]);
-  return (u > 0 && v > 0 && w > 0) || (u < 0 && v < 0 && w < 0);
-}
-
-bool cross(const SurfaceCells::Triangle& s, const SurfaceCells::Triangle& t) {
-  for (size_t k = 0; k < 3; ++k) {
-    if (passes(s[k], s[(k + 1) % 3], t) || passes(t[k], t[(k + 1) % 3], s)) return true;
-  }
-  return false;
-}
-
-bool touch(const SurfaceCells::Triangle& s, const SurfaceCells::Triangle& t) {
+bool touch(const TriangleCorners& s, const TriangleCorners& t) {
   return std::any_of(s.begin(), s.end(), [&](const Vector3& corner) {
     return std::find(t.begin(), t.end(), corner) != t.end();
   });
@@ -66,7 +48,7 @@ SurfaceCells::SurfaceCells(const RepairState& state)
   }
 }
 
-SurfaceCells::Triangle SurfaceCells::triangle(Face f) const {
+TriangleCorners SurfaceCells::triangle(Face f) const {
   const auto& [a, b, c] = state_.faces[f];
   return {state_.shape[a], state_.shape[b], state_.shape[c]};
 }
@@ -84,7 +66,7 @@ std::array<int, 3> SurfaceCells::cell_of(const Vector3& place) const {
 std::int64_t SurfaceCells::entries() const {
   std::int64_t sum = 0;
   for (Face f = 0; f < state_.face_count(); ++f) {
-    const Triangle t = triangle(f);
+    const TriangleCorners t = triangle(f);
     const auto first = cell_of(t[0].cwiseMin(t[1]).cwiseMin(t[2])),
                last = cell_of(t[0].cwiseMax(t[1]).cwiseMax(t[2]));
     std::int64_t cells = 1;
@@ -95,7 +77,7 @@ std::int64_t SurfaceCells::entries() const {
 }
 
 template <class Visit>
-void SurfaceCells::for_each_cell(const Triangle& t, const Visit& visit) const {
+void SurfaceCells::for_each_cell(const TriangleCorners& t, const Visit& visit) const {
   const auto [x0, y0, z0] = cell_of(t[0].cwiseMin(t[1]).cwiseMin(t[2]));
   const auto [x1, y1, z1] = cell_of(t[0].cwiseMax(t[1]).cwiseMax(t[2]));
   for (int x = x0; x <= x1; ++x) {
@@ -105,13 +87,13 @@ void SurfaceCells::for_each_cell(const Triangle& t, const Visit& visit) const {
   }
 }
 
-long SurfaceCells::crossings(const Triangle& t) const {
+long SurfaceCells::crossings(const TriangleCorners& t) const {
   std::vector<Face> crossed;
   for_each_cell(t, [&](size_t cell) {
     for (int i = first_[cell]; i < first_[cell + 1]; ++i) {
       const Face f = faces_[static_cast<size_t>(i)];
-      const Triangle other = triangle(f);
-      if (!touch(t, other) && cross(t, other)) crossed.push_back(f);
+      const TriangleCorners other = triangle(f);
+      if (!touch(t, other) && triangles_cross(t, other)) crossed.push_back(f);
     }
   });
   std::sort(crossed.begin(), crossed.end());

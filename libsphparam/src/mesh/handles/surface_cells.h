@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesh/repair/repair_state.h"
+#include "mesh/triangle_crossing.h"
 
 namespace sphparam {
 
@@ -15,18 +16,16 @@ class SurfaceCells {
   /// may come, which are not looked at. Cost: linear; 64 numbers a face at most.
   explicit SurfaceCells(const RepairState& state);
 
-  using Triangle = std::array<Vector3, 3>;  // places in the unit box
-
-  /// How many of these faces the triangle passes through, or they through it: those that have a
-  /// corner at the same place as the triangle are not looked at.
-  long crossings(const Triangle& triangle) const;
+  /// How many of these faces the triangle crosses (`triangles_cross`): those that have a corner at
+  /// the same place as the triangle are not looked at. Requires: places in the unit box.
+  long crossings(const TriangleCorners& triangle) const;
 
  private:
-  Triangle triangle(Face f) const;
+  TriangleCorners triangle(Face f) const;
   std::array<int, 3> cell_of(const Vector3& place) const;
   std::int64_t entries() const;
   template <class Visit>
-  void for_each_cell(const Triangle& triangle, const Visit& visit) const;
+  void for_each_cell(const TriangleCorners& triangle, const Visit& visit) const;
 
   const RepairState& state_;
   int cells_;               // a side
