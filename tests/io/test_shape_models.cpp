@@ -41,8 +41,9 @@ Eigen::Vector3d cube_point(int face, int i, int j, int q) {
   }
 }
 
-/// A body of an odd shape, so that no two places of it are the same.
-std::string icq(int q, const std::string& end = "") {
+/// A body of an odd shape, so that no two places of it are the same; `mirrored`: its mirror image,
+/// of which all faces look inwards.
+std::string icq(int q, const std::string& end = "", bool mirrored = false) {
   std::ostringstream text;
   text.precision(17);
   text << "          " << q << "\n";
@@ -51,7 +52,7 @@ std::string icq(int q, const std::string& end = "") {
       for (int i = 0; i <= q; ++i) {
         const Eigen::Vector3d d = cube_point(face, i, j, q).normalized();
         const Eigen::Vector3d p = (1 + 0.2 * d.x() + 0.1 * d.x() * d.y()) * d;
-        text << p.x() << ' ' << p.y() << ' ' << p.z() << end << "\n";
+        text << p.x() << ' ' << (mirrored ? -p.y() : p.y()) << ' ' << p.z() << end << "\n";
       }
     }
   }
@@ -101,6 +102,54 @@ TEST_CASE("plate tables: vertices counted from 0 are told") {
         "from 1 nor from 0");
 }
 
+TEST_CASE("plate tables: commas between all numbers of a row separate them, others are refused") {
+  const MeshFile expected = read(tetrahedron_obj);
+  const auto with_commas = [](std::string text) {
+    for (const char* digits : {"0", "1", "2", "3", "4"})
+      text = replaced(text, std::string(digits) + " ", std::string(digits) + ", ");
+    return text;
+  };
+  const std::string spaced = with_commas("4\n" + numbered_vertices + "4\n" + numbered_plates);
+  REQUIRE(contains(spaced, "2, -1, -1, 1\n"));
+  for (const std::string& text :
+       {spaced, replaced(spaced, ", ", ","), replaced(spaced, "\n", ",\r\n"),
+        with_commas("4 4\n" + vertices + plates),
+        "# a, b\n4 4\n" + vertices + with_commas(plates)}) {
+    INFO(text);
+    const MeshFile file = read(text, "a.tab");
+    CHECK(file.format == "PDS plate table");
+    CHECK(file.mesh.positions == expected.mesh.positions);
+    CHECK(file.mesh.triangles == expected.mesh.triangles);
+    CHECK(file.notes.empty());
+  }
+  CHECK(read("# a, b\n4 4\n" + vertices + plates, "a.tab").comments ==
+        std::vector<std::string>{"a, b"});
+  const std::string points = replaced("4 4\n" + vertices + plates, "1 1 1\n", "1,5 1 1\n");
+  CHECK(contains(complaint(points, "a.tab"), "a.tab:2: expected a number, found '1,5' (numbers"));
+}
+
+TEST_CASE(
+    "plate tables: a label before the counts is left out and told, lines keep their numbers") {
+  const std::string label = "PDS_VERSION_ID = PDS3  \r\nROWS = 4, 4\r\nEND_OBJECT\r\nEND   \r\n";
+  for (const char* name : {"a.tab", "a.lbl"}) {
+    const MeshFile file = read(label + "4 4\n" + vertices + plates, name);
+    CHECK(file.format == "PDS plate table");
+    CHECK(file.mesh.triangles == read(tetrahedron_obj).mesh.triangles);
+    CHECK(file.notes ==
+          std::vector<std::string>{"not carried: the PDS label before the table, 4 lines"});
+  }
+  CHECK(
+      contains(complaint(label + "4 4\n" + vertices + replaced(plates, "2 3 4", "2 3 5"), "a.tab"),
+               "a.tab:13: plate names vertex 5 of 4"));
+  CHECK(
+      contains(complaint(label + vertices + plates, "a.tab"),
+               "this is a PDS label (its table is a file of its own, where it has one; one that "
+               "comes after the label's END begins with the numbers of its vertices and plates)"));
+  const MeshFile icq_file = read(label + icq(2), "a.icq");
+  CHECK(icq_file.mesh.vertex_count() == 26);
+  CHECK(icq_file.notes.size() == 1);
+}
+
 TEST_CASE("plate tables: what is wrong is said with its line") {
   const std::string whole = "4\n" + numbered_vertices + "4\n" + numbered_plates;
   CHECK(contains(complaint(replaced(whole, "3 -1 1 -1", "7 -1 1 -1"), "a.tab"),
@@ -145,6 +194,15 @@ TEST_CASE("ICQ: closed, outwards, one vertex a place, numbered as in the file") 
     CHECK(topology.vertex_count() - topology.edge_count() + topology.face_count() == 2);
     CHECK(volume(file.mesh) > 0);
   }
+}
+
+TEST_CASE("ICQ: where rows and columns run the other way, faces are turned, and that is told") {
+  const MeshFile file = read(icq(3, "", true), "shape.txt");
+  CHECK(file.notes == std::vector<std::string>{
+                          "rows and columns run the other way than those of other ICQ: faces were "
+                          "turned, to look outwards"});
+  CHECK(inspect_mesh(file.mesh).is_sphere());
+  CHECK(volume(file.mesh) == Approx(volume(read(icq(3), "shape.txt").mesh)).epsilon(1e-3));
 }
 
 TEST_CASE("ICQ: the vertices are the vectors of the file that source_vertex names") {

@@ -109,6 +109,45 @@ TEST_CASE("stl_reader: attribute bytes and several solids become face properties
   CHECK(two.comments == std::vector<std::string>{"solid one", "solid two"});
 }
 
+TEST_CASE("stl_reader: attributes that are colours become colours of faces, of either convention") {
+  using Values = std::vector<double>;
+  const auto colours = [](const MeshFile& file) {
+    std::vector<Values> channels;
+    for (const char* name : {"red", "green", "blue"})
+      channels.push_back(values_of(file.find_face_property(name)));
+    return channels;
+  };
+  constexpr std::uint32_t orange = 0x8000 | 31 << 10 | 16 << 5 | 1;
+  std::string bytes = binary_stl(tetrahedron(), "", orange);
+  CHECK(colours(read(bytes)) == std::vector{Values(4, 255), Values(4, 132), Values(4, 8)});
+  CHECK(read(bytes).notes.empty());
+  bytes.replace(84 + 48, 2, std::string(2, '\0'));
+  const MeshFile partly = read(bytes);
+  CHECK(colours(partly) ==
+        std::vector{Values(4, 255), Values{255, 132, 132, 132}, Values{255, 8, 8, 8}});
+  CHECK(partly.notes == std::vector<std::string>{"1 triangle has no colour, and became white"});
+  CHECK(values_of(partly.find_face_property("attribute")) == Values{0, orange, orange, orange});
+  // Magics: the colour of the whole in the header, the highest bit clear for other colours.
+  const std::string header = "COLOR=\x0a\x14\x1e\xff,MATERIAL=";
+  bytes = binary_stl(tetrahedron(), header, 1 << 10 | 16 << 5 | 31);
+  bytes.replace(84 + 48, 2, std::string("\xff\xff"));
+  const MeshFile magics = read(bytes);
+  CHECK(colours(magics) ==
+        std::vector{Values{10, 255, 255, 255}, Values{20, 132, 132, 132}, Values{30, 8, 8, 8}});
+  CHECK(magics.notes.empty());
+  // Other numbers are no colours.
+  CHECK_FALSE(read(binary_stl(tetrahedron(), "", 7)).find_face_property("red"));
+}
+
+TEST_CASE("stl_reader: a length that is not that of the count says what to do") {
+  const std::string bytes = binary_stl(tetrahedron());
+  CHECK(contains(complaint(bytes.substr(0, 84 + 50 + 7), "a.stl"),
+                 "has 284 bytes, this file has 141: it ends after 1 whole triangle, so copy, "
+                 "download or export it again"));
+  CHECK(contains(complaint(bytes + bytes.substr(84, 50), "a.stl"),
+                 "this file has 334: its count leaves out what comes after, so export it again"));
+}
+
 TEST_CASE("stl_reader: lines, case and blanks may be as they like") {
   const std::string text = ascii_stl(tetrahedron());
   for (const std::string& other :

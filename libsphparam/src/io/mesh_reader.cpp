@@ -10,6 +10,7 @@
 #include "io/files/gzip.h"
 #include "io/files/text_scanner.h"
 #include "io/formats/mesh_formats.h"
+#include "io/formats/shapes/plain_table.h"
 #include "io/shell_word.h"
 #include "number_text.h"
 #include "sphparam/io/paths.h"
@@ -36,7 +37,9 @@ constexpr ForeignFormat foreign_magic[] = {
     {"\xff\xd8\xff", "a JPEG image"},
     {"DAS/DSK",
      "a DSK of SPICE (NAIF's `dskexp -dsk FILE -text FILE.obj -format obj` turns it into OBJ)"},
-    {"PDS_VERSION_ID", "a PDS label (its table is a file of its own, where it has one)"},
+    {"PDS_VERSION_ID",
+     "a PDS label (its table is a file of its own, where it has one; one that comes after the "
+     "label's END begins with the numbers of its vertices and plates)"},
 };
 
 constexpr ForeignFormat foreign_extensions[] = {
@@ -98,6 +101,16 @@ const MeshFormat* recognised(std::string_view bytes, Evidence evidence) {
   return nullptr;
 }
 
+/// A table of numbers behind a label of its own.
+const MeshFormat* labelled(std::string_view bytes) {
+  if (!has_pds_label(bytes)) return nullptr;
+  for (const char* extension : {".plt", ".icq"}) {
+    const MeshFormat* const format = format_of_extension(extension);
+    if (format && format->looks_so(bytes)) return format;
+  }
+  return nullptr;
+}
+
 /// The format that a file is to be read as. Texts without a magic word are believed last; one that
 /// looks like its name, before others.
 /// Throws: ReadError, with the name of a format that is not read where it is known.
@@ -106,6 +119,7 @@ const MeshFormat& format_of(std::string_view bytes, const std::string& name) {
     if (const MeshFormat* format = recognised(bytes, evidence)) return *format;
   const std::string extension = inner_extension_of(name);
   refuse_foreign_name(foreign_wrapped, extension, name);
+  if (const MeshFormat* format = labelled(bytes)) return *format;
   refuse_foreign_content(bytes, name);
   refuse_nifti(bytes, name);
   const MeshFormat* const named = format_of_extension(extension);

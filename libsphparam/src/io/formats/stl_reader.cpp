@@ -1,16 +1,19 @@
 #include "io/formats/stl_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 #include "io/files/non_finite_advice.h"
 #include "io/files/text_scanner.h"
 #include "io/polygons/distinct_rows.h"
 #include "lower_case.h"
+#include "number_text.h"
 
 // An STL file is a soup: every facet has three corners of its own. Corners are numbered by their
 // coordinates as they come, so the soup is never stored.
@@ -31,6 +34,56 @@ std::uint32_t little_endian(std::string_view bytes, std::size_t at, int width) {
 
 std::uint64_t binary_size(std::uint32_t facets) {
   return header_bytes + facet_bytes * std::uint64_t{facets};
+}
+
+/// How a binary file says the colours of its facets: a bit, and five for each channel.
+struct FacetColours {
+  bool red_is_lowest;                 // of the channels (Magics); else blue (VisCAM, SolidView)
+  bool own_has_bit;                   // where the highest bit is set; else where it is clear
+  std::array<std::uint8_t, 3> other;  // the colour of those without one of their own
+
+  bool has_own(std::uint32_t attribute) const { return (attribute >> 15 == 1) == own_has_bit; }
+
+  /// 0: red, 1: green, 2: blue; from 0 to 255.
+  double channel(std::uint32_t attribute, std::size_t i) const {
+    constexpr std::uint32_t most = 31;
+    if (!has_own(attribute)) return other[i];
+    return std::round(255.0 * (attribute >> 5 * (red_is_lowest ? i : 2 - i) & most) / most);
+  }
+};
+
+/// Magics names the colour of the whole in the header, and its facets' own have the bit clear.
+/// Without that name who uses the two bytes for colours sets the bit, and leaves others 0.
+std::optional<FacetColours> facet_colours(std::string_view header,
+                                          const std::vector<double>& attributes) {
+  constexpr std::string_view of_whole = "COLOR=";
+  constexpr std::size_t channels = 4;
+  constexpr double bit = 1 << 15;
+  const std::size_t at = header.find(of_whole);
+  if (at != std::string_view::npos && header.size() - at >= of_whole.size() + channels) {
+    FacetColours colours{true, false, {}};
+    std::copy_n(header.begin() + static_cast<std::ptrdiff_t>(at + of_whole.size()), 3,
+                colours.other.begin());
+    return colours;
+  }
+  const bool are_colours =
+      std::ranges::all_of(attributes, [](double value) { return value == 0 || value >= bit; });
+  return are_colours ? std::optional(FacetColours{false, true, {255, 255, 255}}) : std::nullopt;
+}
+
+void add_colours(MeshFile& file, const FacetColours& colours,
+                 const std::vector<double>& attributes) {
+  constexpr std::array names = {"red", "green", "blue"};
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    Property channel{names[i], ScalarType::Uint8, {}};
+    for (const double attribute : attributes)
+      channel.values.push_back(colours.channel(static_cast<std::uint32_t>(attribute), i));
+    file.set_face_property(std::move(channel));
+  }
+  const auto without = std::ranges::count(attributes, 0.0);
+  if (colours.own_has_bit && without > 0)
+    file.notes.push_back(counted(without, "triangle has", "triangles have") +
+                         " no colour, and became white");
 }
 
 /// Corners become vertices, three corners a triangle.
@@ -183,7 +236,7 @@ class BinaryReader {
     add_header(file);
     const bool used = std::any_of(attribute.values.begin(), attribute.values.end(),
                                   [](double value) { return value != 0; });
-    if (used) file.set_face_property(std::move(attribute));
+    if (used) add_attributes(file, std::move(attribute));
     if (const std::uint64_t more = bytes_.size() - binary_size(facets); more > 0)
       file.notes.push_back("data after the last triangle ignored: " + std::to_string(more) +
                            (more == 1 ? " byte" : " bytes"));
@@ -191,6 +244,13 @@ class BinaryReader {
   }
 
  private:
+  /// As they are, and as colours where they are such.
+  void add_attributes(MeshFile& file, Property attributes) const {
+    if (const auto colours = facet_colours(bytes_.substr(0, text_header_bytes), attributes.values))
+      add_colours(file, *colours, attributes.values);
+    file.set_face_property(std::move(attributes));
+  }
+
   std::uint32_t count() const {
     if (bytes_.size() < header_bytes)
       throw ReadError(name_, "is neither ASCII STL ('solid …') nor long enough to be a binary one");
@@ -199,8 +259,17 @@ class BinaryReader {
       throw ReadError::at_byte(name_, text_header_bytes,
                                "binary STL of " + std::to_string(facets) + " triangles has " +
                                    std::to_string(binary_size(facets)) + " bytes, this file has " +
-                                   std::to_string(bytes_.size()));
+                                   std::to_string(bytes_.size()) + advice(facets));
     return facets;
+  }
+
+  /// What to do about a length that is wrong.
+  std::string advice(std::uint32_t facets) const {
+    const std::uint64_t whole = (bytes_.size() - header_bytes) / facet_bytes;
+    if (bytes_.size() < binary_size(facets))
+      return ": it ends after " + counted(static_cast<std::int64_t>(whole), "whole triangle") +
+             ", so copy, download or export it again";
+    return ": its count leaves out what comes after, so export it again";
   }
 
   /// What comes after the triangles holds none, of which the count would be wrong.

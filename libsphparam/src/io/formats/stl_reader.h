@@ -25,7 +25,9 @@ bool looks_like_stl(std::string_view bytes);
 /// are not kept, nor need they be finite: they follow from the corners. What comes after the last
 /// triangle is noted, but of a binary file refused where it is whole triangles that its count
 /// leaves out. Kept: the face property `solid` where an ASCII file has several, `attribute` (two
-/// bytes a facet, often a colour) where a binary file uses them, names and header as comments.
+/// bytes a facet) where a binary file uses them, names and header as comments. Where the two bytes
+/// are colours, by the convention of VisCAM and SolidView or by that of Magics, faces have `red`,
+/// `green` and `blue` as well; those without are white (noted), or as the header of Magics says.
 /// Throws: ReadError with the line, or with the byte. Cost: O(triangles), expected.
 MeshFile read_stl(std::string_view bytes, const std::string& name, const ReadOptions& options = {});
 

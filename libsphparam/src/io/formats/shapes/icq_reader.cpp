@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "io/files/text_scanner.h"
+#include "io/formats/shapes/plain_table.h"
 #include "io/formats/shapes/shape_tables.h"
 #include "io/polygons/distinct_rows.h"
 #include "number_text.h"
@@ -43,8 +45,10 @@ CubePoint on_cube(int face, double i, double j, double q) {
 
 class IcqReader {
  public:
-  IcqReader(std::string_view text, const std::string& name, const ReadOptions& options)
-      : scanner_(text, name, options), options_(options) {}
+  IcqReader(const PlainTable& table, const std::string& name, const ReadOptions& options)
+      : scanner_(table.text(), name, options, table.first_line()), options_(options) {
+    table.note_label(file_);
+  }
 
   MeshFile read() {
     file_.format = "ICQ";
@@ -53,6 +57,7 @@ class IcqReader {
     if (scanner_.next_filled_line()) file_.notes.push_back("data after the last vector ignored");
     add_vertices();
     add_quads();
+    if (is_inside_out()) turn_quads();
     adopt_triangulation(file_, triangulate(file_.mesh.positions, polygons_));
     add_notes();
     return std::move(file_);
@@ -158,6 +163,27 @@ class IcqReader {
     }
   }
 
+  /// By the volume, of quads cut along one of their diagonals.
+  bool is_inside_out() const {
+    double volume = 0;
+    for (std::size_t quad = 0; quad < polygons_.corners.size(); quad += 4) {
+      const auto corner = [&](std::size_t k) -> Vector3 {
+        return file_.mesh.position(polygons_.corners[quad + k]);
+      };
+      volume += corner(2).dot(corner(3).cross(corner(0)) - corner(1).cross(corner(0)));
+    }
+    return volume < 0;
+  }
+
+  /// Whose rows are the columns of others.
+  void turn_quads() {
+    for (std::size_t quad = 0; quad < polygons_.corners.size(); quad += 4)
+      std::swap(polygons_.corners[quad + 1], polygons_.corners[quad + 3]);
+    file_.notes.emplace_back(
+        "rows and columns run the other way than those of other ICQ: faces were turned, to look "
+        "outwards");
+  }
+
   void add_notes() {
     if (apart_ > 0)
       file_.notes.push_back(counted(apart_, "point") + " of the edges of faces left apart: up to " +
@@ -187,10 +213,13 @@ class IcqReader {
 
 }  // namespace
 
-bool looks_like_icq(std::string_view text) { return shape_table(text) == ShapeTable::Icq; }
+bool looks_like_icq(std::string_view text) {
+  return shape_table(PlainTable(text).text()) == ShapeTable::Icq;
+}
 
 MeshFile read_icq(std::string_view text, const std::string& name, const ReadOptions& options) {
-  return IcqReader(text, name, options).read();
+  const PlainTable table(text);
+  return IcqReader(table, name, options).read();
 }
 
 }  // namespace sphparam

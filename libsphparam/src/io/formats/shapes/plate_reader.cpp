@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "io/files/text_scanner.h"
+#include "io/formats/shapes/plain_table.h"
 #include "io/formats/shapes/shape_tables.h"
 #include "sphparam/io/polygons.h"
 
@@ -43,8 +44,10 @@ class RowNumbers {
 
 class PlateReader {
  public:
-  PlateReader(std::string_view text, const std::string& name, const ReadOptions& options)
-      : scanner_(text, name, options), options_(options) {}
+  PlateReader(const PlainTable& table, const std::string& name, const ReadOptions& options)
+      : scanner_(table.text(), name, options, table.first_line()), options_(options) {
+    table.note_label(file_);
+  }
 
   MeshFile read() {
     file_.format = "PDS plate table";
@@ -165,10 +168,13 @@ class PlateReader {
 
 }  // namespace
 
-bool looks_like_plates(std::string_view text) { return shape_table(text) == ShapeTable::Plates; }
+bool looks_like_plates(std::string_view text) {
+  return shape_table(PlainTable(text).text()) == ShapeTable::Plates;
+}
 
 MeshFile read_plates(std::string_view text, const std::string& name, const ReadOptions& options) {
-  return PlateReader(text, name, options).read();
+  const PlainTable table(text);
+  return PlateReader(table, name, options).read();
 }
 
 }  // namespace sphparam

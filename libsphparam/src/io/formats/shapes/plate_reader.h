@@ -18,6 +18,7 @@ bool looks_like_plates(std::string_view text);
 ///
 /// Numbers run on from 1 or from 0. Plates name vertices from 1; from 0, which is noted, where one
 /// names 0 and the largest is the number of vertices less 1. Exponents may have Fortran's D.
+/// Numbers may have commas between them; a label of PDS3 may stand before the counts, and is told.
 /// Throws: ReadError with the line.
 MeshFile read_plates(std::string_view text, const std::string& name,
                      const ReadOptions& options = {});
