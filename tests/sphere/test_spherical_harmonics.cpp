@@ -130,6 +130,77 @@ TEST_CASE("spherical_harmonics: least squares find what is a harmonic at the ver
   CHECK(projected.rms.maxCoeff() > 1e-6);  // a piecewise linear function is no harmonic
 }
 
+TEST_CASE("spherical_harmonics: what vertices leave open stays near the integral, and is told") {
+  // Every 15° in longitude and latitude, as files in float32 have it: degree 11 is the last that
+  // they decide.
+  TriangleMesh sphere = uv_sphere(24, 11);
+  sphere.positions = sphere.positions.cast<float>().cast<double>();
+  sphere.positions.rowwise().normalize();
+  const Topology topology(sphere);
+  const SphereMap map = map_of(sphere);
+  Functions known = random_coefficients(20, 2, 4);
+  for (int l = 0; l <= 20; ++l)
+    known.middleRows(harmonic_index(l, -l), 2 * l + 1) /= (l + 1.0) * (l + 1);
+  const Functions values = synthesise(known, map.points);
+  const Functions truth = power_per_degree(known);
+  for (const int degree : {12, 13, 14, 15, 16}) {
+    INFO(degree);
+    const HarmonicFit fit = fit_harmonics(topology, map, values, {.degree = degree});
+    const Functions power = power_per_degree(fit.coefficients);
+    CHECK_FALSE(fit.converged);
+    CHECK(fit.decided_degree == 11);
+    for (int l = 0; l <= degree; ++l) {
+      CHECK((power.row(l).array() < 8 * truth.row(l).array()).all());
+    }
+  }
+  const HarmonicFit fit = fit_harmonics(topology, map, values, {.degree = 11});
+  CHECK(fit.converged);
+  CHECK_FALSE(fit.decided_degree);
+}
+
+TEST_CASE("spherical_harmonics: what vertices decide is found up to rounding, to the last degree") {
+  const TriangleMesh sphere = uv_sphere(24, 11);
+  const Functions wanted = random_coefficients(11, 1, 4);
+  const HarmonicFit fit = fit_harmonics(Topology(sphere), map_of(sphere),
+                                        synthesise(wanted, sphere.positions), {.degree = 11});
+  CHECK((fit.coefficients - wanted).cwiseAbs().maxCoeff() < 1e-11);
+  CHECK(fit.converged);
+  const HarmonicFit stopped =
+      fit_harmonics(Topology(sphere), map_of(sphere), synthesise(wanted, sphere.positions),
+                    {.degree = 11, .most_iterations = 3});
+  CHECK(stopped.iterations == 3);
+  CHECK_FALSE(stopped.converged);
+  CHECK(stopped.decided_degree.value() < 11);
+}
+
+TEST_CASE("spherical_harmonics: more coefficients than vertices leave something open") {
+  const TriangleMesh sphere = icosphere(2);
+  const HarmonicFit fit =
+      fit_harmonics(Topology(sphere), map_of(sphere), sphere.positions, {.degree = 20});
+  CHECK(fit.decided_degree.value() <= 11);
+  CHECK(fit.decided_degree.value() >= 8);
+}
+
+TEST_CASE("spherical_harmonics: a function is integrated as it is between the vertices") {
+  // The distance from the centre of an octahedron's flat sides.
+  const TriangleMesh sphere = octahedron();
+  const Topology topology(sphere);
+  const auto plate = [&](const SurfacePoint& point) {
+    Vector3 place = Vector3::Zero();
+    for (int k = 0; k < 3; ++k)
+      place += point.barycentric[k] * sphere.position(topology.vertex(point.face, k));
+    return VectorX(VectorX::Constant(1, place.norm()));
+  };
+  const Functions ones = Functions::Ones(6, 1);
+  const HarmonicFit flat = fit_harmonics(topology, map_of(sphere), ones,
+                                         {.degree = 0, .least_squares = false, .between = plate});
+  // The mean of 1 / (|x| + |y| + |z|) over the sphere.
+  CHECK(flat.coefficients(0, 0) / std::sqrt(4 * pi) == Approx(0.6742134655).epsilon(1e-5));
+  const HarmonicFit round =
+      fit_harmonics(topology, map_of(sphere), ones, {.degree = 0, .least_squares = false});
+  CHECK(round.coefficients(0, 0) == Approx(std::sqrt(4 * pi)).epsilon(1e-12));
+}
+
 TEST_CASE("spherical_harmonics: an integral has the same coefficients whatever the degree") {
   const TriangleMesh sphere = icosphere(3);
   const Topology topology(sphere);

@@ -7,35 +7,56 @@
 
 #include "option_domain.h"
 #include "sphere/harmonic_degree.h"
+#include "sphere/harmonic_least_squares.h"
 #include "sphere/solid_angle.h"
 #include "sphparam/sphere/sphere_locator.h"
 #include "sphparam/sphere/spherical_harmonics.h"
 
-// First the projection by quadrature of the piecewise linear functions that the map carries to the
-// sphere; then, with W the vertices' shares of the sphere, conjugate gradients on
-//   YᵀWY c = YᵀW f
-// from there: YᵀWY is near the identity where triangles are small against a wave, and neither it
-// nor Y is ever made. Where the integral is what is wanted, the nodes are as many as the triangles
-// ask for, whatever the degree: few nodes take what changes between them for a long wave.
+// First the projection by quadrature of the functions that the map carries to the sphere; then,
+// with the vertices' shares of the sphere as weights, least squares from there. Where the integral
+// is what is wanted, the nodes are as many as the triangles ask for, whatever the degree: few nodes
+// take what changes between them for a long wave.
 
 namespace sphparam {
 namespace {
 
-/// Values at directions of the piecewise linear functions that a map carries to the sphere.
-Functions look_up(const Topology& topology, const SphereMap& map, const Functions& values,
-                  const Points& directions, int threads) {
-  const std::vector<SurfacePoint> points =
-      SphereLocator(topology, map, threads).locate_all(directions, threads);
-  Functions result(directions.rows(), values.cols());
-  for (size_t i = 0; i < points.size(); ++i) {
-    auto row = result.row(static_cast<Eigen::Index>(i));
-    row.setZero();
+/// The functions that a map carries to the sphere, each times its scale.
+class Carried {
+ public:
+  Carried(const Topology& topology, const SphereMap& map, const Functions& values,
+          const VectorX& scales, const HarmonicFitOptions& options)
+      : topology_(topology),
+        locator_(topology, map, options.threads),
+        values_(values),
+        scales_(scales),
+        options_(options) {}
+
+  Functions at(const Points& directions) const {
+    const std::vector<SurfacePoint> points = locator_.locate_all(directions, options_.threads);
+    Functions result = Functions::Zero(directions.rows(), values_.cols());
+    for (size_t i = 0; i < points.size(); ++i) {
+      add(points[i], result.row(static_cast<Eigen::Index>(i)));
+    }
+    return result * scales_.asDiagonal();
+  }
+
+ private:
+  void add(const SurfacePoint& point, Functions::RowXpr row) const {
+    if (options_.between) {
+      row += options_.between(point).transpose();
+      return;
+    }
     for (int k = 0; k < 3; ++k) {
-      row += points[i].barycentric[k] * values.row(topology.vertex(points[i].face, k));
+      row += point.barycentric[k] * values_.row(topology_.vertex(point.face, k));
     }
   }
-  return result;
-}
+
+  const Topology& topology_;
+  SphereLocator locator_;
+  const Functions& values_;
+  const VectorX& scales_;
+  const HarmonicFitOptions& options_;
+};
 
 struct Integral {
   Functions coefficients;
@@ -43,11 +64,10 @@ struct Integral {
 };
 
 /// By the nodes of a grid of at least the degree wanted.
-Integral integrate(const Topology& topology, const SphereMap& map, const Functions& values,
-                   int grid_degree, const HarmonicFitOptions& options) {
+Integral integrate(const Carried& carried, int grid_degree, const HarmonicFitOptions& options) {
   report(options.progress, "quadrature", 0);
   const QuadratureGrid grid = quadrature_grid(grid_degree);
-  const Functions f = look_up(topology, map, values, grid.directions, options.threads);
+  const Functions f = carried.at(grid.directions);
   const auto mean = (grid.weights.transpose() * f / (4 * std::numbers::pi)).eval();
   return {analyse(options.degree, grid.directions, grid.weights, f, options.threads),
           (grid.weights.transpose() * (f.rowwise() - mean).cwiseAbs2()).cwiseSqrt().transpose()};
@@ -67,16 +87,15 @@ double largest_change(const Integral& before, const Integral& now) {
 
 /// About as many nodes as triangles, then twice as many rows and columns until that changes
 /// nothing that counts.
-void integrate_until_settled(const Topology& topology, const SphereMap& map,
-                             const Functions& values, const HarmonicFitOptions& options,
-                             HarmonicFit& fit) {
-  const double of_mesh = std::ceil(std::sqrt(0.5 * topology.face_count()));
+void integrate_until_settled(const Carried& carried, int face_count,
+                             const HarmonicFitOptions& options, HarmonicFit& fit) {
+  const double of_mesh = std::ceil(std::sqrt(0.5 * face_count));
   int degree =
       std::max(options.degree, static_cast<int>(std::min(of_mesh, 0.5 * greatest_harmonic_degree)));
-  Integral found = integrate(topology, map, values, degree, options);
+  Integral found = integrate(carried, degree, options);
   while (degree < greatest_harmonic_degree) {
     degree = std::min(std::max(2 * degree, 1), greatest_harmonic_degree);
-    Integral finer = integrate(topology, map, values, degree, options);
+    Integral finer = integrate(carried, degree, options);
     fit.quadrature_change = largest_change(found, finer);
     found = std::move(finer);
     if (*fit.quadrature_change <= settled_quadrature) break;
@@ -84,51 +103,6 @@ void integrate_until_settled(const Topology& topology, const SphereMap& map,
   fit.quadrature_degree = degree;
   fit.coefficients = std::move(found.coefficients);
 }
-
-/// Conjugate gradients on YᵀWY c = YᵀW f, all functions side by side, each with its own steps.
-class NormalEquations {
- public:
-  NormalEquations(const Points& directions, const VectorX& weights,
-                  const HarmonicFitOptions& options)
-      : directions_(directions), weights_(weights), options_(options) {}
-
-  int solve(const Functions& values, Functions& coefficients) const {
-    const Eigen::ArrayXd enough =
-        options_.tolerance * options_.tolerance * transposed(values).colwise().squaredNorm();
-    Functions residual = transposed(values - synthesised(coefficients));
-    Functions direction = residual;
-    Eigen::ArrayXd squared = residual.colwise().squaredNorm();
-    int iteration = 0;
-    while (iteration < options_.most_iterations && (squared > enough).any()) {
-      report(options_.progress, "least squares",
-             static_cast<double>(iteration) / options_.most_iterations);
-      const Functions image = transposed(synthesised(direction));
-      const Eigen::ArrayXd curvature = direction.cwiseProduct(image).colwise().sum();
-      const Eigen::ArrayXd step =
-          (squared > enough && curvature > 0).select(squared / curvature, 0.0);
-      coefficients += direction * step.matrix().asDiagonal();
-      residual -= image * step.matrix().asDiagonal();
-      const Eigen::ArrayXd next = residual.colwise().squaredNorm();
-      const Eigen::ArrayXd keep = (squared > enough).select(next / squared, 0.0);
-      direction = residual + direction * keep.matrix().asDiagonal();
-      squared = next;
-      ++iteration;
-    }
-    return iteration;
-  }
-
- private:
-  Functions synthesised(const Functions& coefficients) const {
-    return synthesise(coefficients, directions_, options_.threads);
-  }
-  Functions transposed(const Functions& values) const {
-    return analyse(options_.degree, directions_, weights_, values, options_.threads);
-  }
-
-  const Points& directions_;
-  const VectorX& weights_;
-  const HarmonicFitOptions& options_;
-};
 
 void require_values(const Functions& values) {
   for (Eigen::Index k = 0; k < values.cols(); ++k) {
@@ -152,6 +126,15 @@ VectorX scales_of(const Functions& values) {
   return scales;
 }
 
+/// From the coefficients that are there.
+void improve(const HarmonicLeastSquares& squares, Eigen::Index vertices, HarmonicFit& fit) {
+  const Functions start = fit.coefficients;
+  const auto [iterations, converged] = squares.solve(fit.coefficients);
+  fit.iterations = iterations;
+  fit.converged = converged;
+  if (!converged || start.rows() > vertices) fit.decided_degree = squares.decided_degree(start);
+}
+
 }  // namespace
 
 HarmonicFit fit_harmonics(const Topology& topology, const SphereMap& map, const Functions& values,
@@ -165,13 +148,14 @@ HarmonicFit fit_harmonics(const Topology& topology, const SphereMap& map, const 
   require_values(values);
   const VectorX scales = scales_of(values);
   const Functions scaled = values * scales.asDiagonal();
-  HarmonicFit fit;
+  const Carried carried(topology, map, values, scales, options);
   const VectorX shares = vertex_solid_angles(topology, map);
+  HarmonicFit fit;
   if (options.least_squares) {
-    fit.coefficients = integrate(topology, map, scaled, options.degree, options).coefficients;
-    fit.iterations = NormalEquations(map.points, shares, options).solve(scaled, fit.coefficients);
+    fit.coefficients = integrate(carried, options.degree, options).coefficients;
+    improve(HarmonicLeastSquares(map.points, shares, scaled, options), scaled.rows(), fit);
   } else {
-    integrate_until_settled(topology, map, scaled, options, fit);
+    integrate_until_settled(carried, topology.face_count(), options, fit);
   }
   const Functions left = scaled - synthesise(fit.coefficients, map.points, options.threads);
   fit.rms = ((shares.asDiagonal() * left.cwiseAbs2()).colwise().sum() / shares.sum()).cwiseSqrt();

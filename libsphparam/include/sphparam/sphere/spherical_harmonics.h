@@ -1,7 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 
+#include "sphparam/mesh/surface_point.h"
 #include "sphparam/mesh/topology.h"
 #include "sphparam/progress.h"
 #include "sphparam/sphere/sphere_map.h"
@@ -48,10 +50,13 @@ QuadratureGrid quadrature_grid(int degree);
 struct HarmonicFitOptions {
   int degree = 20;
   /// Least squares at the vertices, weighted by their share of the sphere; else by quadrature: the
-  /// projection of the piecewise linear function on the geodesic map, whatever the degree wanted.
+  /// projection of what is between the vertices, too, whatever the degree wanted.
   bool least_squares = true;
   int most_iterations = 100;  // ≥ 0: of conjugate gradients
   double tolerance = 1e-12;   // 0 to 1: of their residual, relative to the right-hand side's
+  /// The k functions anywhere on the surface, equal to the values at vertices; linear on each
+  /// triangle of the map where it is empty.
+  std::function<VectorX(const SurfacePoint&)> between = {};
   int threads = 0;
   Progress progress = {};
 };
@@ -60,6 +65,12 @@ struct HarmonicFit {
   Functions coefficients;  // (L + 1)²×k
   VectorX rms;  // k: of what is left at the vertices, weighted by their share of the sphere
   int iterations = 0;
+
+  // Of least squares: whether conjugate gradients came to their tolerance. Where not, or where
+  // there are more coefficients than vertices, the vertices leave something open: then also the
+  // greatest degree up to which a fit has no such trouble.
+  bool converged = true;
+  std::optional<int> decided_degree = {};
 
   // Of quadrature, not of least squares: the degree of the grid of its nodes, and by how much the
   // coefficients changed when it was doubled last, of √∫(f − mean)² (the function where it is
@@ -74,16 +85,17 @@ constexpr double settled_quadrature = 1e-4;
 
 /// Expands k functions of a mesh's vertices, #V×k, in spherical harmonics on its map.
 ///
-/// Least squares start from the quadrature's coefficients, so that where the vertices leave
-/// something open (large triangles, great degrees) the piecewise linear function decides.
+/// Least squares start from the quadrature's coefficients, and end where a step would change the
+/// functions between the vertices √10 times as much as at them and leave at them what was there: so
+/// where vertices leave something open (large triangles, great degrees) the quadrature decides.
 /// Ensures: functions that are harmonics of degree ≤ L at the vertices are found up to rounding
 /// where the vertices determine them; same bits for any number of threads. Requires: a map that
 /// `certify` calls bijective, unit rays. Throws: std::invalid_argument for wrong sizes or options,
 /// or NaN; Cancelled. Cost: two transforms of #V points an iteration, few where triangles are small
-/// beside a wave; quadrature: a transform and a location of #F nodes, one of four times as many,
-/// and so on until they agree (`settled_quadrature`), 2 million nodes at most. Source: least
-/// squares: Brechbühler, Gerig and Kübler (1995), Section 4; conjugate gradients on the normal
-/// equations, and their start: our own.
+/// beside a wave, and log₂ L such fits where something is open; quadrature: a transform and a
+/// location of #F nodes, one of four times as many, and so on until they agree
+/// (`settled_quadrature`), 2 million nodes at most. Source: least squares: Brechbühler, Gerig and
+/// Kübler (1995), Section 4; conjugate gradients, their start and their end: our own.
 HarmonicFit fit_harmonics(const Topology& topology, const SphereMap& map, const Functions& values,
                           const HarmonicFitOptions& options = {});
 
