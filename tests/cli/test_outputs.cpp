@@ -10,6 +10,8 @@
 #include "mapped.h"
 #include "program.h"
 #include "sphparam/io/mesh_reader.h"
+#include "sphparam/version.h"
+#include "support/joined.h"
 #include "support/test_meshes.h"
 
 namespace sphparam::tests {
@@ -96,6 +98,44 @@ std::string as_text(const Words& words) {
   std::string text;
   for (const std::string& word : words) text += word + " ";
   return text;
+}
+
+/// A command line of every subcommand with --json that works, by a mesh and its map.
+std::vector<Words> reporting_lines(const Folder& folder, const std::string& mesh) {
+  const auto to = [&](const std::string& name) { return folder / name; };
+  return {
+      {"asset", mesh, "-o", to("asset"), "--size", "16", "--no-page"},
+      {"bake", mesh, "--map", "axes", "--size", "16", "-o", to("x.png")},
+      {"export", mesh, "--image-size", "16", "-o", to("x.glb")},
+      {"info", mesh},
+      {"map", mesh, "-o", to("y.sph.ply")},
+      {"match", mesh, mesh, "-o", to("x.sph.ply")},
+      {"measure", mesh, mesh},
+      {"remesh", mesh, "--grid", "ico:1", "-o", to("x.ply")},
+      {"repair", mesh, "-o", to("y.ply")},
+      {"report", mesh, "--size", "64", "--no-viewer", "-o", to("x.html")},
+      {"spharm", mesh, "--degree", "2"},
+      {"survey", to("shapes"), "--size", "0", "-o", to("y.html")},
+      {"verify", mesh},
+      {"wrap", mesh, "--resolution", "16", "-o", to("z.ply")},
+      {"map", to("two.obj"), "--all-components", "-o", to("two.sph.ply")},
+      {"bake", to("two.sph.ply"), "--all-components", "--map", "axes", "--size", "16", "-o",
+       to("two.png")},
+      {"export", to("two.sph.ply"), "--all-components", "--image-size", "16", "-o", to("two.glb")}};
+}
+
+/// The first two keys of a report and what they say.
+std::string head_of(const std::string& report) {
+  const auto json = nlohmann::ordered_json::parse(report, nullptr, false);
+  if (!json.is_object() || json.size() < 2) return "no report";
+  std::string head;
+  for (auto entry = json.begin(); entry != std::next(json.begin(), 2); ++entry)
+    head += entry.key() + " " + entry.value().dump() + "; ";
+  return head;
+}
+
+std::string head_wanted(const std::string& command) {
+  return std::string("sphparam \"") + sphparam::version + "\"; command \"" + command + "\"; ";
 }
 
 }  // namespace
@@ -341,6 +381,53 @@ TEST_CASE("outputs: reports hold what is told, also where nobody is told") {
   }
   CHECK(report_of({"remesh", obj, "--grid", "ico:1", "-o", folder / "r.ply"}).at("losses") ==
         nlohmann::json::array({"r.ply: not carried: colours and textures of materials"}));
+}
+
+TEST_CASE("outputs: every report says first of which version and subcommand it is") {
+  const Mapped mapped(100);
+  const Folder& folder = mapped.folder;
+  fs::create_directories(folder / "shapes");
+  write_bytes(folder / "shapes/ball.obj", obj_text(icosphere(1)));
+  write_bytes(folder / "two.obj", obj_text(joined(icosphere(1), icosphere(0), {3, 0, 0})));
+  std::set<std::string> told;
+  for (Words line : reporting_lines(folder, mapped.path)) {
+    INFO(as_text(line));
+    told.insert(line.front());
+    line.insert(line.end(), {"--json", folder / "report.json", "-q"});
+    const Ended ended = sphparam_program(line);
+    INFO(ended.err);
+    REQUIRE(ended.code == 0);
+    CHECK(head_of(bytes_of(folder / "report.json")) == head_wanted(line.front()));
+  }
+  for (const Subcommand& command : subcommands)
+    CHECK(told.contains(command.name) == contains(command.writes, "--json"));
+  const std::string work = folder / "work";
+  REQUIRE(sphparam_program({"batch", "plan", folder / "shapes", "-o", work, "--", "map"}).code ==
+          0);
+  CHECK(head_of(sphparam_program({"batch", "status", work, "--json", "-", "-q"}).out) ==
+        head_wanted("batch status"));
+}
+
+TEST_CASE("outputs: the report of a refusal says first of which version and subcommand it is") {
+  const Folder folder;
+  TriangleMesh open = icosphere(1);
+  open.triangles.conservativeResize(open.face_count() - 1, 3);
+  const std::string mesh = folder / "open.obj";
+  write_bytes(mesh, obj_text(open));
+  TriangleMesh flat = icosphere(1);
+  flat.positions.setZero();
+  write_bytes(folder / "flat.obj", obj_text(flat));
+  for (Words line : reporting_lines(folder, mesh)) {
+    const std::string command = line.front();
+    if (command == "asset" || command == "survey" || contains(line, "--all-components")) continue;
+    if (command == "measure" || command == "wrap") line[1] = folder / "flat.obj";
+    if (command == "repair") line.push_back("--repair=unused");
+    line.insert(line.end(), {"--json", folder / (command + ".json"), "-q"});
+    const Ended ended = sphparam_program(line);
+    INFO(as_text(line) << ended.err);
+    CHECK(ended.code == 4);
+    CHECK(head_of(bytes_of(folder / (command + ".json"))) == head_wanted(command));
+  }
 }
 
 TEST_CASE(
