@@ -11,6 +11,7 @@
 
 #include "bake/field_registry.h"
 #include "image/image_codec.h"
+#include "render/value_paint.h"
 #include "scenes.h"
 #include "sphparam/bake/bake.h"
 #include "sphparam/io/fillers.h"
@@ -60,6 +61,12 @@ MeshFile with_cap(MeshFile file) {
     fillers.push_back(file.mesh.position(file.mesh.triangles(f, 0)).z() > 0.5 ? 1 : 0);
   mark_fillers(file, fillers);
   return file;
+}
+
+/// A mesh that its directions map, as an egg's do.
+MappedMesh on_ball(const MeshFile& file) {
+  return MappedMesh(
+      {.file = file, .map = {file.mesh.positions.rowwise().normalized()}, .name = "ball"});
 }
 
 const BakeSettings small{.width = 32, .fields = {.rays = 4}, .threads = 1};
@@ -115,7 +122,65 @@ TEST_CASE("bake images: a heat map of what heat has no colours for is numbers, w
       bake(egg(2), {{"height", folder / "h.png"}, {"area", folder / "a.png"}}, settings);
   CHECK(report.warnings ==
         std::vector<std::string>{
-            "height: numbers, not colours: heat is of distortion and curvature"});
+            "height: numbers, not colours: heat is of distortion, curvature and scalar:NAME"});
+}
+
+TEST_CASE("bake images: heat of a scalar has the colours and the scale that pictures of it have") {
+  MeshFile file = egg(3).file();
+  Property tilt{"Tilt", ScalarType::Float64, {}};
+  for (const double z : file.mesh.positions.col(2)) tilt.values.push_back(40 * z);
+  file.set_vertex_property(tilt);
+  const Folder folder;
+  const auto heat = [&](std::optional<std::pair<double, double>> range) {
+    BakeSettings settings = small;
+    settings.fields.heat = true;
+    settings.fields.scalar_range = range;
+    return bake(on_ball(file), {{"scalar:Tilt", folder / "tilt.png"}}, settings).images[0];
+  };
+  const BakedImage image = heat({{-20, 20}});
+  CHECK(image.sample_type == SampleType::Uint8);
+  CHECK(image.channels == 3);
+  CHECK(image.range == std::pair(-20.0, 20.0));
+  CHECK(fs::exists(scale_path(folder / "tilt.png")));
+  const Image seen = read_image(folder / "tilt.png");
+  const auto pixel = [&](int y) { return Rgb(seen.pixel(0, y)); };
+  CHECK((pixel(0) - diverging(1)).norm() < 0.005F);
+  CHECK((pixel(seen.height - 1) - diverging(-1)).norm() < 0.005F);
+  const HeatScale usual = *vertex_value_colours(file, "Tilt").scale;
+  CHECK(heat(std::nullopt).range == std::pair(usual.low, usual.high));
+}
+
+TEST_CASE("bake images: heat of labels has the colours of their table, unmixed") {
+  MeshFile file = egg(2).file();
+  file.comments = {"gifti label 1 0 1 0 1 green", "gifti label 2 1 0 0.2 1 red"};
+  Property lobe{"lobe", ScalarType::Int32, {}};
+  for (const double z : file.mesh.positions.col(2)) lobe.values.push_back(z > 0 ? 1 : 2);
+  file.set_vertex_property(lobe);
+  const Folder folder;
+  BakeSettings settings = small;
+  settings.fields.heat = true;
+  settings.samples = 4;
+  const BakedImage image =
+      bake(on_ball(file), {{"scalar:lobe", folder / "lobe.png"}}, settings).images[0];
+  CHECK(image.sample_type == SampleType::Uint8);
+  CHECK_FALSE(image.range);
+  CHECK_FALSE(fs::exists(scale_path(folder / "lobe.png")));
+  const Image seen = read_image(folder / "lobe.png");
+  int green = 0, red = 0;
+  for (int y = 0; y < seen.height; ++y)
+    for (int x = 0; x < seen.width; ++x) {
+      green += (Rgb(seen.pixel(x, y)) - Rgb(0, 1, 0)).norm() < 1e-3F;
+      red += (Rgb(seen.pixel(x, y)) - Rgb(1, 0, 0.2F)).norm() < 1e-3F;
+    }
+  CHECK(green + red == seen.width * seen.height);
+  CHECK(std::min(green, red) > 0);
+  settings.fields.scalar_range = {{0, 4}};
+  CHECK_THROWS_WITH(bake(on_ball(file), {{"scalar:lobe", folder / "lobe.png"}}, settings),
+                    "scalar:lobe: its labels have the colours of their table, of no range");
+  file.comments.clear();
+  CHECK(bake(on_ball(file), {{"scalar:lobe", folder / "lobe.png"}}, settings).images[0].range ==
+        std::pair(0.0, 4.0));
+  CHECK((Rgb(read_image(folder / "lobe.png").pixel(0, 0)) - viridis(0.25)).norm() < 0.005F);
 }
 
 TEST_CASE("bake images: a mesh that is inside out is told, and rays that met nothing") {

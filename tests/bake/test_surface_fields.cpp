@@ -218,9 +218,9 @@ TEST_CASE("as_heat: the colours of the scale, with the same range and a legend o
     const Rgb expected = to_linear(diverging(static_cast<double>(numbers[f]) / 3));
     CHECK((expected - Rgb(&colours[3 * f])).norm() < 1e-5F);
   }
-  CHECK(heat_scale_of(field)->title == "area ratio");
-  CHECK(heat_scale_of(curvature_field(scene, ""))->title == "curvature mean");
-  CHECK_FALSE(heat_scale_of(height_field(scene, "")));
+  CHECK(field.scale->title == "area ratio");
+  CHECK(curvature_field(scene, "").scale->title == "curvature mean");
+  CHECK_FALSE(height_field(scene, "").scale);
   CHECK_THROWS_AS(as_heat(field), std::invalid_argument);
 }
 

@@ -132,14 +132,15 @@ void declare_images(Declaration& command, BakeSettings& settings) {
             settings.fields.scalar_range = two_ends(text);
             return settings.fields.scalar_range.has_value();
           },
-          wanted_ends, "Of scalar:NAME: what the least and the greatest integer stand for")
+          wanted_ends,
+          "Of scalar:NAME: what the least and the greatest integer (--heat: colour) stand for")
       .preset("as the numbers are")
       .choice("--normal-y", settings.fields.normal_y_down, {{"gl", false}, {"dx", true}},
               "Where green points in normal-tangent: up or down the image (default: gl)")
       .convention(settings.convention)
       .flag("--mip", settings.mip, "Tiles, and all levels down to one texel (.exr only)")
       .flag("--heat", settings.fields.heat,
-            "Colours for distortion and curvature, and their scale in a file beside")
+            "Colours for distortion, curvature and scalar:NAME, and their scale in a file beside")
       .number("--rays", settings.fields.rays, "N", {1, 65536},
               "Rays a sample, for ao, bent and thickness")
       .number("--max-dist", settings.fields.max_ray_distance, "X", {1e-9, 1e9, "1e-9 to 1e9"},
@@ -170,7 +171,8 @@ bool has_integers(const BakeRequest& image, const BakeSettings& settings) {
 void require_ranged(const std::vector<BakeRequest>& images, const BakeSettings& settings) {
   if (!settings.fields.scalar_range) return;
   const bool is_heeded = std::ranges::any_of(images, [&](const BakeRequest& image) {
-    return image.field.starts_with("scalar:") && has_integers(image, settings);
+    return image.field.starts_with("scalar:") &&
+           (settings.fields.heat || has_integers(image, settings));
   });
   if (!is_heeded)
     throw UsageMistake(

@@ -113,16 +113,15 @@ std::string about_file(const PlannedImage& image) {
   return image.field.about + (is_moved ? "; less " + origin_text(image.field) : "");
 }
 
-/// Of colours that stand for values (heat_field.h) `beyond` is NaN: their values are not counted.
+/// Of colours that stand for values `beyond` is NaN: their values are not counted.
 BakedImage told(const PlannedImage& image, double beyond) {
-  const bool stands_for_values = image.field.kind == FieldKind::Colour && image.field.range;
   return {.field = image.field.name,
           .about = about_file(image),
           .path = image.request.path,
           .sample_type = image.file.sample_type,
           .channels = image.field.channels,
           .range = range_in_file(image.field, image.file.sample_type),
-          .beyond = stands_for_values ? std::numeric_limits<double>::quiet_NaN() : beyond};
+          .beyond = image.field.scale ? std::numeric_limits<double>::quiet_NaN() : beyond};
 }
 
 /// None: none are wanted, or there are none.

@@ -65,7 +65,7 @@ ImageFileOptions file_options(const SurfaceField& field, const BakedFileOptions&
 /// What an integer sample of 0 and of its greatest value stand for.
 std::pair<double, double> ends_of(const SurfaceField& field) {
   if (field.kind == FieldKind::Direction) return {-1, 1};
-  if (field.kind == FieldKind::Colour) return {0, 1};
+  if (field.kind == FieldKind::Colour || field.scale) return {0, 1};
   return field.range.value_or(std::pair(0.0, 1.0));
 }
 
@@ -91,7 +91,7 @@ std::vector<Sample> integers(const float* values, size_t count, const SurfaceFie
 }  // namespace
 
 std::optional<std::pair<double, double>> range_in_file(const SurfaceField& field, SampleType type) {
-  if (!is_integer(type) && field.kind != FieldKind::Colour) return std::nullopt;
+  if (!is_integer(type) && !field.scale) return std::nullopt;
   if (!field.range || field.proper_channels() > 1) return field.range;
   return std::pair(field.range->first + field.origin[0], field.range->second + field.origin[0]);
 }

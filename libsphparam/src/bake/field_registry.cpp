@@ -9,6 +9,7 @@
 #include "bake/fields/body_fields.h"
 #include "bake/fields/curvature_field.h"
 #include "bake/fields/distortion_fields.h"
+#include "bake/fields/heat_field.h"
 #include "bake/fields/height_field.h"
 #include "bake/fields/material_fields.h"
 #include "bake/fields/normal_fields.h"
@@ -50,7 +51,7 @@ const std::vector<FieldMaker>& field_makers() {
       {"found", "0 where a mesh met the surface baked from, 1 its back, 2 only its nearest point",
        make_found},
       {"uv", "the texture coordinates of the mesh", make_texcoords},
-      {"scalar", "scalar:NAME, a property of vertices or faces", make_scalar, true},
+      {"scalar", "scalar:NAME, a property of vertices or faces", make_scalar_or_heat, true},
   };
   return kinds;
 }

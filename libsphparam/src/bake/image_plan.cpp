@@ -196,8 +196,8 @@ std::vector<std::string> warnings_of(const std::vector<PlannedImage>& images,
       if (std::string line = rounding_line(field, scene); !line.empty())
         warnings.push_back(std::move(line));
     if (settings.fields.heat && field.kind == FieldKind::Data)
-      warnings.push_back(field.name +
-                         ": numbers, not colours: heat is of distortion and curvature");
+      warnings.push_back(
+          field.name + ": numbers, not colours: heat is of distortion, curvature and scalar:NAME");
   }
   return warnings;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,6 +15,7 @@
 
 namespace sphparam {
 
+struct HeatScale;
 struct TexelRun;
 
 /// What the values of a field are, and so how they may be filtered and stored.
@@ -83,6 +85,9 @@ struct SurfaceField {
   // What is added to values and range, a channel: far from 0, for their extent, float32 would round
   // away what tells them apart. 0 elsewhere.
   std::array<double, 3> origin = {};
+  // Of colours that stand for numbers: see `as_heat`. Null: of all others, and of labels whose
+  // table has colours.
+  std::shared_ptr<const HeatScale> scale = nullptr;
   bool calm = false;  // shows nothing of what walls hide: see CalmWalls
 
   /// Fills values[channels·i …] for sample i. Called from many threads at once.

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "bake/fields/heat_field.h"
+#include "render/heat.h"
 #include "sphparam/io/paths.h"
 #include "srgb_curves.h"
 
@@ -13,7 +13,7 @@ namespace {
 
 /// The scale of a heat map, in a picture of its own: a texture has no place for it.
 void add_scale(const PlannedImage& image, PendingFiles& files) {
-  const std::optional<HeatScale> scale = heat_scale_of(image.field);
+  const HeatScale* const scale = image.field.scale.get();
   if (!scale || image.drawn || is_stream(image.request.path)) return;
   constexpr int side = 480;
   const Image blank(side, side, 3), whole = with_legend(blank, *scale);

@@ -37,19 +37,14 @@ Naming naming_at_vertices(const MeshFile& file, const Property& property) {
   return naming_of_whole_numbers(file, property);
 }
 
-std::vector<Rgb> colours_of_table(const Property& property, const std::vector<Label>& labels) {
+std::map<double, Rgb> colours_of_table(const std::vector<Label>& labels) {
   std::map<double, Rgb> colours;
   for (const Label& label : labels)
     if (label.colour && (*label.colour)[3] > 0)
       colours[label.key] = Rgb((*label.colour)[0], (*label.colour)[1], (*label.colour)[2])
                                .cwiseMax(0.0F)
                                .cwiseMin(1.0F);
-  std::vector<Rgb> result;
-  for (const double value : property.values) {
-    const auto found = colours.find(value);
-    result.push_back(found == colours.end() ? unknown : found->second);
-  }
-  return result;
+  return colours;
 }
 
 double percentile(std::vector<double>& values, double share) {
@@ -78,37 +73,54 @@ void note_values_beyond(const Property& property, HeatScale& scale) {
   }
 }
 
-/// Colours, and the scale that they are from where no table has them.
-std::pair<std::vector<Rgb>, std::optional<HeatScale>> coloured(
-    const Property& shown, const Naming& naming,
-    const std::optional<std::pair<double, double>>& range) {
-  if (!naming.labels.empty()) return {colours_of_table(shown, naming.labels), std::nullopt};
+ValueColours colours_of(const Property& shown, const Naming& naming,
+                        const std::optional<std::pair<double, double>>& range) {
+  if (!naming.labels.empty()) return {naming.names, colours_of_table(naming.labels)};
   HeatScale scale =
       range ? HeatScale{shown.name, range->first, range->second} : scale_of(shown, naming.names);
   scale.given = range.has_value();
   note_values_beyond(shown, scale);
-  std::vector<Rgb> colours;
-  for (const double value : shown.values)
-    colours.push_back(std::isfinite(value) ? heat_colour(scale, value) : unknown);
   scale.title = in_lower_case(scale.title);
-  return {std::move(colours), std::move(scale)};
+  return {naming.names, {}, std::move(scale)};
+}
+
+std::vector<Rgb> all_of(const ValueColours& colours, const Property& shown) {
+  std::vector<Rgb> all;
+  for (const double value : shown.values) all.push_back(colours.of(value));
+  return all;
 }
 
 }  // namespace
 
+Rgb ValueColours::of(double value) const {
+  if (scale) return std::isfinite(value) ? heat_colour(*scale, value) : unknown;
+  const auto found = table.find(value);
+  return found == table.end() ? unknown : found->second;
+}
+
+ValueColours vertex_value_colours(const MeshFile& file, const std::string& property,
+                                  const std::optional<std::pair<double, double>>& range) {
+  const Property& shown = *file.find_vertex_property(property);
+  return colours_of(shown, naming_at_vertices(file, shown), range);
+}
+
+ValueColours face_value_colours(const MeshFile& file, const std::string& property,
+                                const std::optional<std::pair<double, double>>& range) {
+  const Property& shown = *file.find_face_property(property);
+  return colours_of(shown, naming_of_whole_numbers(file, shown), range);
+}
+
 ValuePaint value_paint(const MeshFile& file, const std::string& property,
                        const std::optional<std::pair<double, double>>& range) {
+  ValueColours colours = vertex_value_colours(file, property, range);
   const Property& shown = *file.find_vertex_property(property);
-  const Naming naming = naming_at_vertices(file, shown);
-  auto [colours, scale] = coloured(shown, naming, range);
-  return {{.colours = std::move(colours), .blends = !naming.names}, std::move(scale)};
+  return {{.colours = all_of(colours, shown), .blends = !colours.names}, std::move(colours.scale)};
 }
 
 FaceValuePaint face_value_paint(const MeshFile& file, const std::string& property,
                                 const std::optional<std::pair<double, double>>& range) {
-  const Property& shown = *file.find_face_property(property);
-  auto [colours, scale] = coloured(shown, naming_of_whole_numbers(file, shown), range);
-  return {{std::move(colours)}, std::move(scale)};
+  ValueColours colours = face_value_colours(file, property, range);
+  return {{all_of(colours, *file.find_face_property(property))}, std::move(colours.scale)};
 }
 
 }  // namespace sphparam

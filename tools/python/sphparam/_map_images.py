@@ -139,7 +139,7 @@ class MapImages(MapFacts):
             How it is magnified: ``"nearest"``, ``"bilinear"``, ``"bicubic"``; what it is beyond its
             borders: ``"repeat"``, ``"mirror"``, ``"clamp"``.
         heat
-            Distortion and curvature as colours instead of numbers.
+            Distortion, curvature and ``"scalar:NAME"`` as colours instead of numbers.
         normal_y_down
             ``"normal-tangent"`` for DirectX; else for OpenGL and glTF.
         height_radial

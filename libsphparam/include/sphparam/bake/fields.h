@@ -15,14 +15,17 @@ namespace sphparam {
 /// What may be asked of fields.
 struct FieldOptions {
   TextureFilter filter = TextureFilter::Bilinear;  // how textures are magnified
-  bool normal_y_down = false;     // normal-tangent for DirectX; else for OpenGL and glTF
-  bool height_radial = false;     // distance from the origin; else along the target's normal
-  bool heat = false;              // distortion and curvature as colours instead of numbers
+  bool normal_y_down = false;  // normal-tangent for DirectX; else for OpenGL and glTF
+  bool height_radial = false;  // distance from the origin; else along the target's normal
+  // Distortion, curvature and scalars as colours instead of numbers: of scalars those that pictures
+  // of the mesh have (`DrawingOptions::scalar`), labels too, over the same range.
+  bool heat = false;
   int rays = 64;                  // a sample, of ao, bent and thickness: 1 to 65536
   double max_ray_distance = 0.1;  // of ao and bent, in diagonals of the bounding box: positive
-  // Of scalars that measure, in integers: what 0 and the greatest one stand for, so that images of
-  // several meshes or times can be compared. Numbers beyond end there, which is told. None: the
-  // least and the greatest of the mesh's own.
+  // Of scalars that measure, in integers: what 0 and the greatest one stand for, and of heat the
+  // ends of the scale, so that images of several meshes or times can be compared. Numbers beyond
+  // end there, which is told. None: the least and the greatest of the mesh's own; of heat its 2nd
+  // and 98th percentile.
   std::optional<std::pair<double, double>> scalar_range = {};
   // Of lon, lat, radius, slope and elevation: the body's centre, in the mesh's coordinates; none:
   // that of a radial map, else the origin.

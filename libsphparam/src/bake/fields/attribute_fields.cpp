@@ -243,7 +243,7 @@ SurfaceField make_scalar(const BakeScene& scene, const std::string& name) {
     SurfaceField field{
         .name = "scalar:" + name, .about = "property " + name, .range = range_of(property.values)};
     require_float32(field.name, *field.range);
-    if (const auto& wanted = scene.options.scalar_range) {
+    if (const auto& wanted = scene.options.scalar_range; wanted && !scene.options.heat) {
       require_measure(property);
       field.range = wanted;
     }

@@ -14,7 +14,8 @@ SurfaceField make_vertex_colour(const BakeScene& scene, const std::string&);
 SurfaceField make_opaque_vertex_colour(const BakeScene& scene);
 /// Texture coordinates of the source: (s, t, 0), t upwards.
 SurfaceField make_texcoords(const BakeScene& scene, const std::string&);
-/// A property of vertices or faces, by its name.
+/// A property of vertices or faces, by its name, over the range that is asked for; that of heat is
+/// of its scale.
 SurfaceField make_scalar(const BakeScene& scene, const std::string& name);
 /// How the points of the target found the surface that is baked on it: see `Found`.
 SurfaceField make_found(const BakeScene& scene, const std::string&);

@@ -1,8 +1,12 @@
 #include "bake/fields/heat_field.h"
 
 #include <algorithm>
+#include <functional>
 #include <stdexcept>
 #include <vector>
+
+#include "bake/fields/attribute_fields.h"
+#include "render/value_paint.h"
 
 namespace sphparam {
 namespace {
@@ -17,47 +21,78 @@ HeatScale scale_for(const std::string& name, const std::pair<double, double>& ra
   return {title, range.first, range.second};
 }
 
+using ColourOf = std::function<Rgb(double)>;
+
+std::vector<float> numbers_at(const SurfaceField& data, std::span<const SurfaceRun> runs) {
+  size_t count = 0;
+  for (const SurfaceRun& run : runs) count += static_cast<size_t>(run.count);
+  std::vector<float> numbers(count);
+  data.evaluate_runs(runs, numbers.data());
+  return numbers;
+}
+
+std::vector<float> numbers_at(const SurfaceField& data, std::span<const SurfaceSample> samples) {
+  std::vector<float> numbers(samples.size());
+  data.evaluate(samples, numbers.data());
+  return numbers;
+}
+
+/// Evaluates numbers, and writes their colours.
+template <class Places>
+auto colours_at(const SurfaceField& data, const ColourOf& colour_of) {
+  return [data, colour_of](Places places, float* values) {
+    for (const float number : numbers_at(data, places)) {
+      const Rgb colour = colour_of(static_cast<double>(number) + data.origin[0]);
+      values = std::copy_n(colour.data(), 3, values);
+    }
+  };
+}
+
+/// `colour_of`: sRGB. Labels are stored so in integers; elsewhere as all colours, in linear light.
+SurfaceField coloured(const SurfaceField& data, const ColourOf& colour_of, bool integers) {
+  SurfaceField field = {.name = data.name, .channels = 3, .about = "colours of " + data.about};
+  const bool labels = data.kind == FieldKind::Label;
+  field.kind = labels ? FieldKind::Label : FieldKind::Colour;
+  const ColourOf light = [colour_of](double number) { return to_linear(colour_of(number)); };
+  if (data.evaluate_runs)
+    field.evaluate_runs =
+        colours_at<std::span<const SurfaceRun>>(data, labels && integers ? colour_of : light);
+  else
+    field.evaluate = colours_at<std::span<const SurfaceSample>>(data, colour_of);
+  return field;
+}
+
 }  // namespace
 
 SurfaceField as_heat(SurfaceField data) {
   if (data.channels != 1 || data.kind != FieldKind::Data || !data.range) {
     throw std::invalid_argument(data.name + " is not one number with a range");
   }
-  SurfaceField field = {.name = data.name,
-                        .channels = 3,
-                        .kind = FieldKind::Colour,
-                        .about = "colours of " + data.about,
-                        .range = data.range};
   const HeatScale scale = scale_for(data.name, *data.range);
-  if (data.evaluate_runs) {
-    field.evaluate_runs = [scale, numbers_of = std::move(data.evaluate_runs)](
-                              std::span<const SurfaceRun> runs, float* values) {
-      size_t count = 0;
-      for (const SurfaceRun& run : runs) count += static_cast<size_t>(run.count);
-      std::vector<float> numbers(count);
-      numbers_of(runs, numbers.data());
-      for (const float number : numbers) {
-        const Rgb colour = to_linear(heat_colour(scale, static_cast<double>(number)));
-        values = std::copy_n(colour.data(), 3, values);
-      }
-    };
-    return field;
-  }
-  field.evaluate = [scale, numbers_of = std::move(data.evaluate)](
-                       std::span<const SurfaceSample> samples, float* values) {
-    std::vector<float> numbers(samples.size());
-    numbers_of(samples, numbers.data());
-    for (const float number : numbers) {
-      const Rgb colour = heat_colour(scale, static_cast<double>(number));
-      values = std::copy_n(colour.data(), 3, values);
-    }
-  };
+  SurfaceField field = coloured(
+      data, [scale](double number) { return heat_colour(scale, number); }, true);
+  field.range = data.range;
+  field.scale = std::make_shared<const HeatScale>(scale);
   return field;
 }
 
-std::optional<HeatScale> heat_scale_of(const SurfaceField& field) {
-  if (field.kind != FieldKind::Colour || !field.range) return std::nullopt;
-  return scale_for(field.name, *field.range);
+SurfaceField make_scalar_or_heat(const BakeScene& scene, const std::string& name) {
+  SurfaceField data = make_scalar(scene, name);
+  if (!scene.options.heat) return data;
+  const MeshFile& file = scene.source.file();
+  const auto& range = scene.options.scalar_range;
+  const ValueColours colours = file.find_vertex_property(name)
+                                   ? vertex_value_colours(file, name, range)
+                                   : face_value_colours(file, name, range);
+  if (range && !colours.scale)
+    throw FieldError(data.name + ": its labels have the colours of their table, of no range");
+  if (colours.names) data.kind = FieldKind::Label;
+  SurfaceField field = coloured(
+      data, [colours](double number) { return colours.of(number); }, scene.ids_as_colours);
+  if (!colours.scale) return field;
+  field.range = std::pair(colours.scale->low, colours.scale->high);
+  field.scale = std::make_shared<const HeatScale>(*colours.scale);
+  return field;
 }
 
 }  // namespace sphparam

@@ -71,7 +71,7 @@ std::string element(const char* name, const std::string& text) {
 
 /// Value = offset + scale · sample.
 std::string scaling(const SurfaceField& field, int band, SampleType type) {
-  if (!is_integer(type) || field.kind == FieldKind::Colour) return "";
+  if (!is_integer(type) || field.kind == FieldKind::Colour || field.scale) return "";
   const bool direction = field.kind == FieldKind::Direction;
   const auto [low, high] =
       direction ? std::pair(-1.0, 1.0) : field.range.value_or(std::pair(0.0, 1.0));
