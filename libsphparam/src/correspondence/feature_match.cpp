@@ -175,56 +175,116 @@ VectorX agreement_of(const MappedMesh& from, const TargetSurface& target, const 
   return agreement;
 }
 
+ComposedOptions with_features(ComposedOptions options, const FeatureScales& features) {
+  options.features = &features;
+  return options;
+}
+
+/// A match by features, and what it is made with.
+class FeatureMatching {
+ public:
+  /// Borrows all.
+  FeatureMatching(const MappedMesh& from, const MappedMesh& to, const TargetSurface& target,
+                  const ComposedOptions& options, const MatchFeatures& features)
+      : from_(from),
+        to_(to),
+        target_(target),
+        features_(features),
+        from_sphere_(sphere_of(from)),
+        to_sphere_(sphere_of(to)),
+        scales_(from_sphere_, from.topology(), to_sphere_, to.topology(), features),
+        shared_(from, to, from_sphere_, to_sphere_, features),
+        one_sided_(is_one_sided(features, from, to)),
+        options_(with_features(options, scales_)),
+        on_sphere_(to, to_sphere_.positions),
+        way_(from_sphere_, from.topology(), on_sphere_, options_) {}
+
+  FeatureMatch run(bool alike) {
+    // 1. A coarse level.
+    const bool by_landmarks = !options_.landmarks.empty();
+    if (by_landmarks) {
+      if (!start_at_landmarks()) return {std::nullopt, way_.residuals()};
+    } else if (alike) {
+      start_by_stance();
+    } else {
+      start_by_features();
+    }
+    // 2. Up to the whole sphere, then between the surfaces.
+    const SphereMap map = way_.finish();
+    if (map.points.rows() == 0) return {std::nullopt, way_.residuals()};
+    result_.map =
+        improve_composition(from_.mesh(), from_.topology(), target_, map, options_, last_steps);
+    const VectorX agreement = agreement_by(*result_.map);
+    result_.agreement = agreement.mean();
+    if (by_landmarks) result_.begun_with = agreement;
+    return std::move(result_);
+  }
+
+ private:
+  /// Features as they are compared after this turn of the map of `from`.
+  void prepare(const Eigen::Matrix3d& rotation) {
+    if (one_sided_) options_.features = &shared_.after(rotation);
+  }
+
+  VectorX agreement_by(const SphereMap& map) const {
+    return agreement_of(from_, target_, options_.features->raw(), map);
+  }
+
+  VectorX agreement_after(const Eigen::Matrix3d& rotation) {
+    prepare(rotation);
+    return agreement_by(turned(from_.map(), rotation));
+  }
+
+  /// False: these cannot be reached.
+  bool start_at_landmarks() {
+    if (options_.landmarks.size() >= telling_landmarks)
+      prepare(best_rotation(from_.map(), options_.landmarks));
+    return way_.start(starts).has_value();
+  }
+
+  void start_by_stance() {
+    const std::vector<TurnOfFunctions> turns = turns_by_stance(from_, to_, options_.threads);
+    result_.begun_with = agreement_after(turns.front().rotation);
+    result_.confidence = start_alike(way_, from_.map(), turns);
+  }
+
+  FeatureTurns turns() const {
+    if (one_sided_) {
+      FeatureTurns found =
+          turns_by_shared_features(from_, to_, features_, scales_.raw(), options_.threads);
+      if (!found.turns.empty()) return found;
+    }
+    return turns_by_features(from_, to_, scales_.raw(), options_.threads);
+  }
+
+  void start_by_features() {
+    const FeatureTurns found = turns();
+    result_.begun_with = agreement_after(found.turns.front().rotation);
+    result_.better_opposed = found.opposed - found.turns.front().correlation;
+    result_.confidence =
+        start_at_best(way_, from_.map(), found.turns, options_.energy,
+                      [this](const Eigen::Matrix3d& rotation) { prepare(rotation); });
+  }
+
+  const MappedMesh &from_, &to_;
+  const TargetSurface& target_;
+  const MatchFeatures& features_;
+  const TriangleMesh from_sphere_, to_sphere_;
+  const FeatureScales scales_;
+  SharedFeatures shared_;
+  const bool one_sided_;
+  ComposedOptions options_;  // with the features that are compared
+  const TargetSurface on_sphere_;
+  CoarseToFine way_;
+  FeatureMatch result_;
+};
+
 }  // namespace
 
 FeatureMatch match_by_features(const MappedMesh& from, const MappedMesh& to,
                                const TargetSurface& target, const ComposedOptions& options,
                                const MatchFeatures& features, bool alike) {
-  const TriangleMesh from_sphere = sphere_of(from), to_sphere = sphere_of(to);
-  const FeatureScales scales(from_sphere, from.topology(), to_sphere, to.topology(), features);
-  SharedFeatures shared(from, to, from_sphere, to_sphere, features);
-  const bool one_sided = is_one_sided(features, from, to);
-  ComposedOptions with_features = options;
-  with_features.features = &scales;
-  const auto prepare = [&](const Eigen::Matrix3d& rotation) {
-    if (one_sided) with_features.features = &shared.after(rotation);
-  };
-  const auto after_turn = [&](const Eigen::Matrix3d& rotation) {
-    prepare(rotation);
-    return agreement_of(from, target, with_features.features->raw(), turned(from.map(), rotation));
-  };
-
-  // 1. A coarse level.
-  const TargetSurface sphere(to, to_sphere.positions);
-  CoarseToFine way(from_sphere, from.topology(), sphere, with_features);
-  FeatureMatch result;
-  if (!options.landmarks.empty()) {
-    if (options.landmarks.size() >= telling_landmarks)
-      prepare(best_rotation(from.map(), options.landmarks));
-    if (!way.start(starts)) return {std::nullopt, way.residuals()};
-  } else if (alike) {
-    const std::vector<TurnOfFunctions> turns = turns_by_stance(from, to, options.threads);
-    result.begun_with = after_turn(turns.front().rotation);
-    result.confidence = start_alike(way, from.map(), turns);
-  } else {
-    FeatureTurns found{{}, 0};
-    if (one_sided)
-      found = turns_by_shared_features(from, to, features, scales.raw(), options.threads);
-    if (found.turns.empty()) found = turns_by_features(from, to, scales.raw(), options.threads);
-    result.begun_with = after_turn(found.turns.front().rotation);
-    result.better_opposed = found.opposed - found.turns.front().correlation;
-    result.confidence = start_at_best(way, from.map(), found.turns, options.energy, prepare);
-  }
-
-  // 2. Up to the whole sphere, then between the surfaces.
-  SphereMap map = way.finish();
-  if (map.points.rows() == 0) return {std::nullopt, way.residuals()};
-  result.map =
-      improve_composition(from.mesh(), from.topology(), target, map, with_features, last_steps);
-  const VectorX agreement = agreement_of(from, target, with_features.features->raw(), *result.map);
-  result.agreement = agreement.mean();
-  if (!options.landmarks.empty()) result.begun_with = agreement;
-  return result;
+  return FeatureMatching(from, to, target, options, features).run(alike);
 }
 
 TurnedMatch match_by_turn(const MappedMesh& from, const MappedMesh& to, const TargetSurface& target,
