@@ -66,6 +66,57 @@ void refuse(bool wrong, const char* message) {
   if (wrong) throw UsageMistake(message);
 }
 
+/// Refuses what does not go together.
+void refuse_combinations(const ExportArguments& a, const std::string& extension) {
+  const ExportOptions& e = a.exported;
+  const LookOptions& look = e.look;
+  refuse(a.all_components && (is_stream(a.output) || !a.sphere.empty()),
+         "--all-components writes several files: give -o a name, and leave out --sphere: the maps "
+         "that "
+         "`map --all-components` writes have it in them");
+  refuse(e.keep_topology && e.refine_poles > 1,
+         "--refine-poles adds vertices, --keep-topology forbids them");
+  refuse(e.morph != Morph::None && e.shape != ShapeKind::Mesh,
+         "--morph starts from the mesh: leave out --shape");
+  refuse(e.morph != Morph::None && a.lods > 0,
+         "--lods are of meshes that do not change: leave out --morph");
+  refuse(e.keep_topology && a.lods > 0, "--lods are new meshes: leave out --keep-topology");
+  refuse(e.shape != ShapeKind::Mesh && a.lods > 0, "--lods are of the mesh: leave out --shape");
+  refuse(e.source_uv && a.lods > 0,
+         "--lods have no texture coordinates of the mesh: leave out --source-uv");
+  refuse(a.embedded && extension != ".gltf", "--embedded is for .gltf; a .glb is one file anyway");
+  refuse(a.lods > 0 && is_stream(a.output) && a.lod_style == LodStyle::Files,
+         "--lods are files: give -o a name");
+  refuse(look.unlit && (look.tangents || !look.normal.empty() || !look.occlusion.empty() ||
+                        !look.orm.empty() || !look.emissive.empty()),
+         "--unlit shows no light: leave out --normal-map, --occlusion-map, --orm-map, "
+         "--emissive-map and --tangents");
+}
+
+/// Refuses what OBJ and PLY have no place for.
+void refuse_beyond_geometry(const ExportArguments& a, const std::string& extension) {
+  const ExportOptions& e = a.exported;
+  const LookOptions& look = e.look;
+  const std::string only = " is for .glb and .gltf, not for " + extension;
+  for (const auto& [given, option] : {std::pair{e.morph != Morph::None, "--morph"},
+                                      {e.shape == ShapeKind::Flat, "--shape flat"},
+                                      {!look.variants.empty(), "--variants"},
+                                      {!look.normal.empty(), "--normal-map"},
+                                      {!look.occlusion.empty(), "--occlusion-map"},
+                                      {!look.orm.empty(), "--orm-map"},
+                                      {!look.emissive.empty(), "--emissive-map"},
+                                      {look.unlit, "--unlit"},
+                                      {look.tangents, "--tangents"},
+                                      {e.theta_phi, "--theta-phi"},
+                                      {e.source_uv, "--source-uv"},
+                                      {e.quantise, "--quantize"},
+                                      {a.compress, "--compress"},
+                                      {a.lods > 0, "--lods"},
+                                      {a.lod_style == LodStyle::Msft, "--lod msft"}}) {
+    if (given) throw UsageMistake(option + only);
+  }
+}
+
 }  // namespace
 
 void declare_export_options(Declaration& command, ExportArguments& arguments) {
@@ -88,55 +139,16 @@ void declare_export_options(Declaration& command, ExportArguments& arguments) {
 }
 
 void check_export_arguments(const ExportArguments& a) {
-  const ExportOptions& e = a.exported;
-  const LookOptions& look = e.look;
   const std::string extension = is_stream(a.output) ? ".glb" : extension_of(a.output);
   const bool is_gltf = extension == ".glb" || extension == ".gltf";
   if (!is_gltf && extension != ".obj" && extension != ".ply") {
     throw UsageMistake("-o: expected .glb, .gltf, .obj or .ply, not " +
                        (extension.empty() ? output_name(a.output) : extension));
   }
-  for (const std::string& name : look.variants) place_among(variant_names(), name, "--variants");
-  refuse(a.all_components && (is_stream(a.output) || !a.sphere.empty()),
-         "--all-components writes several files: give -o a name, and leave out --sphere: the maps "
-         "that "
-         "`map --all-components` writes have it in them");
-  refuse(e.keep_topology && e.refine_poles > 1,
-         "--refine-poles adds vertices, --keep-topology forbids them");
-  refuse(e.morph != Morph::None && e.shape != ShapeKind::Mesh,
-         "--morph starts from the mesh: leave out --shape");
-  refuse(e.morph != Morph::None && a.lods > 0,
-         "--lods are of meshes that do not change: leave out --morph");
-  refuse(e.keep_topology && a.lods > 0, "--lods are new meshes: leave out --keep-topology");
-  refuse(e.shape != ShapeKind::Mesh && a.lods > 0, "--lods are of the mesh: leave out --shape");
-  refuse(e.source_uv && a.lods > 0,
-         "--lods have no texture coordinates of the mesh: leave out --source-uv");
-  refuse(a.embedded && extension != ".gltf", "--embedded is for .gltf; a .glb is one file anyway");
-  refuse(a.lods > 0 && is_stream(a.output) && a.lod_style == LodStyle::Files,
-         "--lods are files: give -o a name");
-  refuse(look.unlit && (look.tangents || !look.normal.empty() || !look.occlusion.empty() ||
-                        !look.orm.empty() || !look.emissive.empty()),
-         "--unlit shows no light: leave out --normal-map, --occlusion-map, --orm-map, "
-         "--emissive-map and --tangents");
-  if (is_gltf) return;
-  const std::string only = " is for .glb and .gltf, not for " + extension;
-  for (const auto& [given, option] : {std::pair{e.morph != Morph::None, "--morph"},
-                                      {e.shape == ShapeKind::Flat, "--shape flat"},
-                                      {!look.variants.empty(), "--variants"},
-                                      {!look.normal.empty(), "--normal-map"},
-                                      {!look.occlusion.empty(), "--occlusion-map"},
-                                      {!look.orm.empty(), "--orm-map"},
-                                      {!look.emissive.empty(), "--emissive-map"},
-                                      {look.unlit, "--unlit"},
-                                      {look.tangents, "--tangents"},
-                                      {e.theta_phi, "--theta-phi"},
-                                      {e.source_uv, "--source-uv"},
-                                      {e.quantise, "--quantize"},
-                                      {a.compress, "--compress"},
-                                      {a.lods > 0, "--lods"},
-                                      {a.lod_style == LodStyle::Msft, "--lod msft"}}) {
-    if (given) throw UsageMistake(option + only);
-  }
+  for (const std::string& name : a.exported.look.variants)
+    place_among(variant_names(), name, "--variants");
+  refuse_combinations(a, extension);
+  if (!is_gltf) refuse_beyond_geometry(a, extension);
 }
 
 }  // namespace sphparam::cli

@@ -1,5 +1,6 @@
 #include "arguments/match_arguments.h"
 
+#include "arguments/energy_words.h"
 #include "arguments/mesh_names.h"
 #include "console/exit_codes.h"
 #include "console/places.h"
@@ -78,9 +79,7 @@ void declare_options(Declaration& command, MatchArguments& arguments) {
           "A and B lie alike in space, as their files have them: without landmarks, ends and turns "
           "are also judged by where places are, the first turn of --features by that alone")
       .flag("--mirror", arguments.mirror, "Match the mirror image of A, which is what is written")
-      .choice("--energy", arguments.options.energy.kind,
-              {{"symmetric-dirichlet", EnergyKind::SymmetricDirichlet},
-               {"angle-area", EnergyKind::AngleAndArea}},
+      .choice("--energy", arguments.options.energy.kind, energy_words,
               "Of A → B, what is minimised: stretch both ways, or angles and areas as of maps "
               "(default: symmetric-dirichlet)")
       .text("--sphere", arguments.first_sphere, "FILE", "The map of A, in a file of its own")

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "arguments/energy_words.h"
 #include "commands/command.h"
 #include "commands/sources.h"
 #include "console/console.h"
@@ -51,6 +52,10 @@ struct GroupArguments : CommonArguments {
   GroupOptions options;
 };
 
+std::string in_folder(const GroupArguments& arguments, const std::string& name) {
+  return (std::filesystem::path(arguments.folder) / name).string();
+}
+
 void read_grid(GroupArguments& arguments) try {
   arguments.options.grid.reset();
   if (arguments.grid == "template") return;
@@ -89,8 +94,7 @@ void require_other_files(const GroupArguments& arguments) {
   std::vector<std::string> files{"index.html", "group.json", "mean.sph.ply"};
   for (const std::string& name : names_of_shapes(arguments.inputs))
     for (const char* kind : {"map_", "shape_"}) files.push_back(kind + name + ".sph.ply");
-  for (const std::string& file : files)
-    outputs.emplace_back("-o", (std::filesystem::path(arguments.folder) / file).string());
+  for (const std::string& file : files) outputs.emplace_back("-o", in_folder(arguments, file));
   check_places(outputs, arguments.folder);
 }
 
@@ -187,7 +191,7 @@ void tell_stale(const GroupArguments& arguments, const Words& written, Session& 
   const auto place = [&](const fs::path& path) { return fs::weakly_canonical(path, error); };
   std::set<fs::path> known{place(arguments.reference)};  // what is read is no remainder
   for (const std::string& path : arguments.inputs) known.insert(place(path));
-  for (const std::string& name : written) known.insert(place(fs::path(arguments.folder) / name));
+  for (const std::string& name : written) known.insert(place(in_folder(arguments, name)));
   Words stale;
   for (const auto& entry : fs::directory_iterator(arguments.folder, error)) {
     const std::string name = entry.path().filename().string();
@@ -225,55 +229,82 @@ Words meshes_in(const Words& places) try {
   throw UsageMistake(error.what());
 }
 
-int run_group(GroupArguments& arguments) {
+/// Refuses before any work what cannot become a group.
+void require_group(GroupArguments& arguments) {
   arguments.inputs = meshes_in(arguments.inputs);
   require_sensible(arguments);
   require_folder(arguments.folder);
   require_other_files(arguments);
   require_there(arguments.inputs);
   require_there({arguments.reference, arguments.landmarks});
-  NewFolder folder(arguments.folder);
-  Session session(arguments);
-  const ReadShape reference = read_shape(reference_of(arguments), arguments, session);
-  std::vector<TemplateLandmark> landmarks;  // before all others: a slip should not cost hours
-  if (!arguments.landmarks.empty())
-    landmarks = read_template_landmarks(arguments.landmarks, FileNumbers(reference.mapped.file()));
-  std::vector<MappedMesh> shapes;
-  std::vector<MendedShape> mended;
-  for (ReadShape& shape : read_shapes(arguments, reference, session)) {
-    shapes.push_back(std::move(shape.mapped));
-    mended.push_back(std::move(shape.mended));
+}
+
+/// The shapes in their order, with what was mended of each.
+struct ReadGroup {
+  ReadShape reference;
+  std::vector<TemplateLandmark> landmarks = {};
+  std::vector<MappedMesh> shapes = {};
+  std::vector<MendedShape> mended = {};
+};
+
+ReadGroup read_group(const GroupArguments& arguments, Session& session) {
+  ReadGroup read{.reference = read_shape(reference_of(arguments), arguments, session)};
+  const MappedMesh& reference = read.reference.mapped;
+  if (!arguments.landmarks.empty())  // before all others: a slip should not cost hours
+    read.landmarks = read_template_landmarks(arguments.landmarks, FileNumbers(reference.file()));
+  for (ReadShape& shape : read_shapes(arguments, read.reference, session)) {
+    read.shapes.push_back(std::move(shape.mapped));
+    read.mended.push_back(std::move(shape.mended));
   }
-  tell_hemispheres(arguments, reference.mapped, shapes, session);
-  GroupOptions options = arguments.options;
-  options.threads = session.threads();
-  options.progress = session.progress();
-  const Group group = make_group(shapes, reference.mapped, options);
+  tell_hemispheres(arguments, reference, read.shapes, session);
+  return read;
+}
+
+GroupRecord record_of(const GroupArguments& arguments, const ReadGroup& read, const Group& group,
+                      const GroupOptions& options) {
   GroupRecord record{.group = group,
                      .options = options,
                      .files = arguments.inputs,
                      .names = names_of_shapes(arguments.inputs),
-                     .mapped_now = mapped_now(shapes),
+                     .mapped_now = mapped_now(read.shapes),
                      .reference = reference_of(arguments),
-                     .landmarks = landmarks,
-                     .mended = std::move(mended),
+                     .landmarks = read.landmarks,
+                     .mended = read.mended,
                      .reference_mended = {}};
-  if (!is_shape(reference_of(arguments), arguments)) record.reference_mended = reference.mended;
-  session.warn(group_warnings(record));
-  record.seconds = session.stopwatch.seconds();
+  if (!is_shape(record.reference, arguments)) record.reference_mended = read.reference.mended;
+  return record;
+}
+
+/// Makes the folder; what goes into it waits in the session.
+void add_files(const GroupArguments& arguments, GroupRecord& record, NewFolder& folder,
+               Session& session) {
   folder.make();
   record.outputs = add_group(session.files, arguments.folder, record,
                              {.up = arguments.up,
                               .size = arguments.size,
                               .threads = session.threads(),
                               .progress = session.progress()});
-  session.files.add((std::filesystem::path(arguments.folder) / "group.json").string(),
-                    to_json(record));
+  session.files.add(in_folder(arguments, "group.json"), to_json(record));
+}
+
+int run_group(GroupArguments& arguments) {
+  require_group(arguments);
+  NewFolder folder(arguments.folder);
+  Session session(arguments);
+  const ReadGroup read = read_group(arguments, session);
+  GroupOptions options = arguments.options;
+  options.threads = session.threads();
+  options.progress = session.progress();
+  const Group group = make_group(read.shapes, read.reference.mapped, options);
+  GroupRecord record = record_of(arguments, read, group, options);
+  session.warn(group_warnings(record));
+  record.seconds = session.stopwatch.seconds();
+  add_files(arguments, record, folder, session);
   session.publish();
   session.console.say(to_text(record));
   for (const std::string& line : mode_lines(record)) session.console.say("  " + line);
   tell_stale(arguments, record.outputs, session);
-  session.console.say("→ " + (std::filesystem::path(arguments.folder) / "index.html").string());
+  session.console.say("→ " + in_folder(arguments, "index.html"));
   return Ok;
 }
 
@@ -307,9 +338,7 @@ void declare_options(Declaration& command, GroupArguments& arguments) {
       .number("--modes", arguments.options.modes, "N", {0, 100}, "At most so many are kept")
       .text("--landmarks", arguments.landmarks, "FILE",
             "Vertices of the template, one a line and a name after it, to be found on all shapes")
-      .choice("--energy", arguments.options.energy.kind,
-              {{"symmetric-dirichlet", EnergyKind::SymmetricDirichlet},
-               {"angle-area", EnergyKind::AngleAndArea}},
+      .choice("--energy", arguments.options.energy.kind, energy_words,
               "What is minimised, as of match (default: symmetric-dirichlet)")
       .up(arguments.up)
       .number("--size", arguments.size, "N", {0, 4096},

@@ -40,26 +40,27 @@ std::optional<VertexData> read_data(const std::string& path) try {
   return std::nullopt;
 }
 
-/// It is told what it is, and that it is no mesh.
-int tell_data(const VertexData& data, InfoArguments& arguments, Session& session) {
-  const DataRecord record = {data, arguments.input, session.stopwatch.seconds()};
+template <class Record>
+void publish(const Record& record, const InfoArguments& arguments, Session& session) {
   session.console.clear_progress();
   session.add_report([&] { return to_json(record); });
   if (!is_stream(arguments.json) && !arguments.quiet) session.files.add("-", to_text(record));
   session.publish();
+}
+
+/// It is told what it is, and that it is no mesh.
+int tell_data(const VertexData& data, const InfoArguments& arguments, Session& session) {
+  publish(DataRecord{data, arguments.input, session.stopwatch.seconds()}, arguments, session);
   if (arguments.quiet) print_error(display_name(arguments.input) + ": this is no mesh");
   return MeshUnusable;
 }
 
-int tell_mesh(const MeshSource& source, InfoArguments& arguments, Session& session) {
+int tell_mesh(const MeshSource& source, const InfoArguments& arguments, Session& session) {
   InspectionRecord record = {.source = source};
   if (!source.inspection.is_sphere()) record.repair = try_repair(source);
   if (record.repair && record.repair->parts.refused) record.parts = try_parts(source);
   record.seconds = session.stopwatch.seconds();
-  session.console.clear_progress();
-  session.add_report([&] { return to_json(record); });
-  if (!is_stream(arguments.json) && !arguments.quiet) session.files.add("-", to_text(record));
-  session.publish();
+  publish(record, arguments, session);
   if (is_mappable(source)) return Ok;
   if (arguments.quiet)
     print_error(display_name(arguments.input) + (source.inspection.is_sphere()

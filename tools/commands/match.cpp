@@ -120,6 +120,27 @@ Match match(const MatchArguments& arguments, const MappedMesh& first, const Mapp
                                                            : ""));
 }
 
+struct Surfaces {
+  MappedMesh first, second;
+};
+
+/// Both, mapped. What they lack, and landmarks and features that they have not, are told before.
+Surfaces read_surfaces(MatchArguments& arguments, const std::optional<LandmarkFile>& landmarks,
+                       Session& session) {
+  const Side a{"A", arguments.first, arguments.first_sphere},
+      b{"B", arguments.second, arguments.second_sphere};
+  MeshSource first = read_side(a, arguments.repair, session),
+             second = read_side(b, arguments.repair, session);
+  if (landmarks) {
+    for (const MeshSource* source : {&first, &second}) tell_other_numbers(*source, session.console);
+    arguments.options.landmarks =
+        landmarks->pairs(FileNumbers(first.file), FileNumbers(second.file));
+  }
+  read_features_of(arguments, first.file, second.file);
+  return {map_side(a, std::move(first), arguments.repair, session),
+          map_side(b, std::move(second), arguments.repair, session)};
+}
+
 /// What A's triangles show of B's shape, where it is asked for.
 std::optional<CarriedFidelity> fidelity(const MatchArguments& arguments, const Match& match,
                                         Session& session) {
@@ -135,20 +156,7 @@ int run_match(MatchArguments& arguments) {
   require_there(
       {arguments.first, arguments.second, arguments.first_sphere, arguments.second_sphere});
   session.hold_signals();
-  const Side a{"A", arguments.first, arguments.first_sphere},
-      b{"B", arguments.second, arguments.second_sphere};
-  MeshSource first_source = read_side(a, arguments.repair, session),
-             second_source = read_side(b, arguments.repair, session);
-  // What they lack is told before they are mapped.
-  if (landmarks) {
-    for (const MeshSource* source : {&first_source, &second_source})
-      tell_other_numbers(*source, session.console);
-    arguments.options.landmarks =
-        landmarks->pairs(FileNumbers(first_source.file), FileNumbers(second_source.file));
-  }
-  read_features_of(arguments, first_source.file, second_source.file);
-  MappedMesh first = map_side(a, std::move(first_source), arguments.repair, session);
-  const MappedMesh second = map_side(b, std::move(second_source), arguments.repair, session);
+  auto [first, second] = read_surfaces(arguments, landmarks, session);
   tell_hemispheres(arguments, first, second, session);
   if (arguments.mirror) first = mirror_image(first, session.threads());
   arguments.options.search = !landmarks && arguments.features.empty();
