@@ -5,8 +5,8 @@
 #include <cstring>
 #include <fstream>
 
-#include "folder.h"
-#include "reading.h"
+#include "io/folder.h"
+#include "io/reading.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/mesh_writer.h"
 

@@ -3,7 +3,7 @@
 
 #include "io/files/gzip.h"
 #include "io/formats/mesh_formats.h"
-#include "reading.h"
+#include "io/reading.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/io/sphere_file.h"

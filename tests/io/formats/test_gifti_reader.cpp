@@ -6,7 +6,7 @@
 #include <random>
 
 #include "io/formats/gifti/gifti_writer.h"
-#include "reading.h"
+#include "io/reading.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/mesh_writer.h"
 #include "support/test_meshes.h"

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cstdint>
 
-#include "reading.h"
+#include "io/reading.h"
 #include "sphparam/mesh/mesh_defects.h"
 #include "support/test_meshes.h"
 

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "reading.h"
+#include "io/reading.h"
 #include "sphparam/io/losses.h"
 #include "support/draco_encoder.h"
 #include "support/test_meshes.h"

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "io/attributes/remarks.h"
-#include "reading.h"
+#include "io/reading.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;

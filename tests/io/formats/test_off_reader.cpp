@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "reading.h"
+#include "io/reading.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;

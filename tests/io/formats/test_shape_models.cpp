@@ -2,8 +2,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "folder.h"
-#include "reading.h"
+#include "io/folder.h"
+#include "io/reading.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/mapped_mesh.h"
 #include "sphparam/mesh/topology.h"

@@ -8,7 +8,7 @@
 #include "io/formats/vtk/legacy_vtk_writer.h"
 #include "io/formats/vtk/xml_vtk_reader.h"
 #include "io/formats/vtk/xml_vtk_writer.h"
-#include "reading.h"
+#include "io/reading.h"
 #include "sphparam/io/losses.h"
 #include "support/test_meshes.h"
 

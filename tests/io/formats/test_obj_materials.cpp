@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "io/attributes/material_comments.h"
-#include "reading.h"
+#include "io/reading.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "io/formats/gifti/gifti_writer.h"
-#include "reading.h"
+#include "io/reading.h"
 #include "sphparam/errors.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/safe_file.h"

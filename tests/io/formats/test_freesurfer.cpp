@@ -2,7 +2,7 @@
 
 #include "io/formats/freesurfer_reader.h"
 #include "io/formats/freesurfer_writer.h"
-#include "reading.h"
+#include "io/reading.h"
 #include "sphparam/errors.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/mesh_writer.h"

@@ -4,7 +4,7 @@
 #include "io/files/gzip.h"
 #include "io/formats/mz3_reader.h"
 #include "io/formats/mz3_writer.h"
-#include "reading.h"
+#include "io/reading.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/mesh_writer.h"
 #include "support/test_meshes.h"
