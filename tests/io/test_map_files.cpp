@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <numbers>
 
 #include "folder.h"
 #include "reading.h"
@@ -165,6 +166,27 @@ TEST_CASE("harmonic_expansion: an ellipsoid is of degree 1, and comes back") {
   CHECK(values_of(back.find_vertex_property("height"))[3] ==
         Approx(mapped.mesh().position(3).z()).margin(1e-9));
   CHECK(read_provenance(back).back() == std::pair<std::string, std::string>{"harmonics", "3"});
+}
+
+TEST_CASE("harmonic_expansion: the integral is of the flat triangles, of a radial map along rays") {
+  // With corners 3 along x and 1 along y and z: r = 1 / (|x|/3 + |y| + |z|), of this mean.
+  constexpr double mean = 0.902772733935;
+  MeshFile file;
+  file.mesh = octahedron();
+  const SphereMap map{file.mesh.positions};
+  file.mesh.positions.col(0) *= 3;
+  const Provenance lines = {
+      {"method", "radial"}, {"radial-centre", "0 0 0"}, {"radial-movement", "0"}};
+  const auto mean_radius = [&](const Provenance& provenance) {
+    const MappedMesh mapped({.file = file, .map = map, .provenance = provenance});
+    const HarmonicExpansion found =
+        expand_in_harmonics(mapped, {}, {.degree = 0, .least_squares = false}, Vector3(0, 0, 0));
+    CHECK(found.radius_about == Vector3(0, 0, 0));
+    return found.fit.coefficients(0, 3) / std::sqrt(4 * std::numbers::pi);
+  };
+  CHECK(mean_radius(lines) == Approx(mean).epsilon(1e-4));
+  // Elsewhere a map says which point lies where, and the radius is that of the point.
+  CHECK(mean_radius({}) > 1.05 * mean);
 }
 
 TEST_CASE("harmonic_expansion: what was turned says so, and no longer that it lies as a body") {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "io/attributes/other_coordinates.h"
+#include "sphere/move_to_surface.h"
 #include "sphere/solid_angle.h"
 #include "sphparam/errors.h"
 #include "sphparam/io/certified_files.h"
@@ -39,6 +40,39 @@ Functions functions_of(const MeshFile& file, const std::vector<std::string>& sca
   }
   return values;
 }
+
+/// The functions between the vertices.
+class OnTriangles {
+ public:
+  OnTriangles(const MappedMesh& mapped, const Functions& values,
+              const std::optional<Vector3>& radius_about)
+      : triangles_(mapped.mesh().triangles), values_(values), radius_about_(radius_about) {
+    const auto radial = planetocentric(mapped.provenance());
+    if (!radial || !is_as_said(*radial, mapped.file(), mapped.map())) return;
+    distances_ = (mapped.mesh().positions.rowwise() - radial->centre.transpose()).rowwise().norm();
+  }
+
+  VectorX operator()(const SurfacePoint& point) const {
+    Vector3 weights = point.barycentric;
+    if (distances_.size() > 0) move_to_surface(distances(point.face), weights);
+    VectorX result = VectorX::Zero(values_.cols());
+    for (int k = 0; k < 3; ++k)
+      result += weights[k] * values_.row(triangles_(point.face, k)).transpose();
+    if (radius_about_) result[result.size() - 1] = (result.head<axes>() - *radius_about_).norm();
+    return result;
+  }
+
+ private:
+  Vector3 distances(Face f) const {
+    return {distances_[triangles_(f, 0)], distances_[triangles_(f, 1)],
+            distances_[triangles_(f, 2)]};
+  }
+
+  const Triangles& triangles_;
+  const Functions& values_;
+  const std::optional<Vector3>& radius_about_;
+  VectorX distances_;  // from the centre of a radial map; none of others
+};
 
 /// The positions as they were turned.
 Points turned_positions(const MappedMesh& mapped, const HarmonicExpansion& expansion) {
@@ -128,12 +162,15 @@ HarmonicExpansion expand_in_harmonics(const MappedMesh& mapped,
   result.functions = {"x", "y", "z"};
   result.functions.insert(result.functions.end(), scalars.begin(), scalars.end());
   if (radius_about) result.functions.emplace_back("radius");
+  result.radius_about = radius_about;
   result.least_squares = options.least_squares;
   result.map = mapped.provenance();
   result.comments = file.comments;
   result.diagonal = (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
   const Functions values = functions_of(file, scalars, radius_about);
-  result.fit = fit_harmonics(mapped.topology(), mapped.map(), values, options);
+  HarmonicFitOptions fitted = options;
+  fitted.between = OnTriangles(mapped, values, radius_about);
+  result.fit = fit_harmonics(mapped.topology(), mapped.map(), values, fitted);
   if (options.progress && !options.progress("residuals", 0)) throw Cancelled();
   result.values = synthesise(result.fit.coefficients, mapped.map().points, options.threads);
   result.plain_rms = (values - result.values).cwiseAbs2().colwise().mean().cwiseSqrt();

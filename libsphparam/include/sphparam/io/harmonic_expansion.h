@@ -31,6 +31,7 @@ struct HarmonicExpansion {
   Functions values;           // #V: what the harmonics have at the vertices
   VectorX plain_rms;          // of what is left at the vertices, each counted once
   double diagonal = 0;        // of the bounding box: the scale of the residuals of x, y, z
+  std::optional<Vector3> radius_about = {};  // what "radius" is the distance from
 
   // Of the coefficients that are told: `told_coefficients`, and what `records` writes of them.
   HarmonicNormalisation normalisation = HarmonicNormalisation::Orthonormal;
@@ -54,7 +55,10 @@ struct HarmonicExpansion {
 
 /// Expands the positions of a mesh's vertices, the vertex properties of these names, and, with a
 /// centre in the mesh's coordinates, the distance from there under the name "radius". Of a radial
-/// map its harmonics are those of planetocentric longitude and latitude.
+/// map its harmonics are those of planetocentric longitude and latitude. The integral is of the
+/// mesh's own flat triangles, as the map carries them to the sphere: of a map that is radial as it
+/// says (`is_as_said`) along rays from its centre, of others linearly; the radius is that of their
+/// points, not linear.
 /// Requires: numbers whose squares doubles hold. Throws: std::invalid_argument for a name that no
 /// vertex property has, and as `fit_harmonics`; Cancelled. Cost: `fit_harmonics`'.
 HarmonicExpansion expand_in_harmonics(const MappedMesh& mapped,
