@@ -1,7 +1,5 @@
 #include "srgb_curves.h"
 
-#include <cmath>
-
 #include "elementary.h"
 
 namespace sphparam {

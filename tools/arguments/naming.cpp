@@ -1,6 +1,5 @@
 #include "arguments/naming.h"
 
-#include <algorithm>
 #include <cctype>
 #include <filesystem>
 

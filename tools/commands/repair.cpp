@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <iterator>
 #include <optional>
-#include <utility>
 
 #include "arguments/limits.h"
 #include "arguments/mesh_names.h"

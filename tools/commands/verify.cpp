@@ -1,7 +1,5 @@
 // `sphparam verify`: proves a written map again, ours or a peer's.
 
-#include <optional>
-
 #include "arguments/limits.h"
 #include "commands/command.h"
 #include "console/places.h"

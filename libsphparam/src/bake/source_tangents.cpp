@@ -1,6 +1,5 @@
 #include "bake/source_tangents.h"
 
-#include <array>
 #include <vector>
 
 #include "io/polygons/distinct_rows.h"

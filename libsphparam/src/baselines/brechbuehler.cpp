@@ -1,7 +1,6 @@
 #include "sphparam/baselines/brechbuehler.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "baselines/equal_areas.h"

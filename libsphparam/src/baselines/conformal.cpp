@@ -1,6 +1,5 @@
 #include "sphparam/baselines/conformal.h"
 
-#include <cmath>
 #include <utility>
 #include <vector>
 

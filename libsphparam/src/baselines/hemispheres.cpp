@@ -1,7 +1,6 @@
 #include "sphparam/baselines/hemispheres.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <utility>
 

@@ -1,7 +1,5 @@
 #include "baselines/mobius_centring.h"
 
-#include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "sphparam/parallel.h"

@@ -3,7 +3,6 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 
 #include "chart/sheet_region.h"

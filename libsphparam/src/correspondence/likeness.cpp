@@ -1,8 +1,6 @@
 #include "sphparam/correspondence/likeness.h"
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
 #include <vector>
 
 #include "correspondence/coarse_to_fine.h"

@@ -1,7 +1,6 @@
 #include "curvilinear/curvilinear_map.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "curvilinear/lift.h"

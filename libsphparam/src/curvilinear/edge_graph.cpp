@@ -1,7 +1,6 @@
 #include "edge_graph.h"
 
 #include <limits>
-#include <utility>
 
 // Dijkstra with a 4-ary heap and no decrease-key: an improved vertex is pushed again and its stale
 // entries are skipped. The frontier is a front of about √#V vertices, so the heap stays in cache;

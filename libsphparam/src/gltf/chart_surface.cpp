@@ -1,6 +1,5 @@
 #include "gltf/chart_surface.h"
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>

@@ -1,7 +1,6 @@
 #include "gltf/compact_order.h"
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "gltf/gathered_surface.h"

@@ -1,7 +1,5 @@
 #include "gltf/painted_surfaces.h"
 
-#include <cstring>
-
 #include "bake/bake_rows.h"
 #include "bake/field_registry.h"
 #include "io/attributes/source_attributes.h"

@@ -1,6 +1,5 @@
 #include "gltf/written_check.h"
 
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 

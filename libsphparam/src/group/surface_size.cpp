@@ -1,6 +1,5 @@
 #include "sphparam/group/surface_size.h"
 
-#include <algorithm>
 #include <cmath>
 
 // Over a triangle of area A with corners pᵢ, ∫ x = A Σ pᵢ / 3 and, of corners qᵢ = pᵢ − c,

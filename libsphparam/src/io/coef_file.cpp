@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "io/files/file_bytes.h"
 #include "io/files/text_scanner.h"

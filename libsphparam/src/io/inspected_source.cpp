@@ -1,7 +1,5 @@
 #include "io/inspected_source.h"
 
-#include <utility>
-
 #include "mesh/flat_face.h"
 #include "sphparam/errors.h"
 #include "sphparam/io/paths.h"

@@ -4,7 +4,6 @@
 
 #include "sphparam/io/verify_map.h"
 
-#include <cmath>
 #include <numbers>
 #include <sstream>
 #include <utility>

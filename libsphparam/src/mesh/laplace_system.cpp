@@ -2,7 +2,6 @@
 
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseLU>
-#include <cmath>
 #include <optional>
 
 #include "sphparam/errors.h"

@@ -3,7 +3,6 @@
 #include "sphparam/paint/paint.h"
 
 #include <cmath>
-#include <utility>
 #include <vector>
 
 #include "bake/baked_chart.h"

@@ -4,7 +4,6 @@
 #include "remesh/texture_lattice.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 #include "remesh/grids/grid_family.h"

@@ -2,7 +2,6 @@
 
 #include "remesh/texture_layout.h"
 
-#include <array>
 #include <stdexcept>
 #include <utility>
 

@@ -1,7 +1,6 @@
 #include "render/geodesic.h"
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <unordered_map>
 

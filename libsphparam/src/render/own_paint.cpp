@@ -1,7 +1,6 @@
 #include "render/own_paint.h"
 
 #include <algorithm>
-#include <optional>
 
 #include "io/attributes/appearance.h"
 #include "io/attributes/shading_normals.h"

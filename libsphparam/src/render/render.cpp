@@ -1,7 +1,6 @@
 #include "render/render.h"
 
 #include <Eigen/Geometry>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>

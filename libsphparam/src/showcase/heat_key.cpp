@@ -1,6 +1,5 @@
 #include "showcase/heat_key.h"
 
-#include <array>
 #include <cmath>
 
 #include "report/svg.h"

@@ -1,4 +1,3 @@
-#include <algorithm>
 
 #include "compare/pictures.h"
 #include "embedded/report_page.css.h"

@@ -1,6 +1,5 @@
 #include "sphparam/sphere/spherical_coordinates.h"
 
-#include <cmath>
 #include <numbers>
 
 #include "elementary.h"

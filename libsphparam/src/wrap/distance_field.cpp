@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 
 #include "rays/interpolation.h"
 #include "rays/ray_scene.h"

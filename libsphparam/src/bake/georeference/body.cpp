@@ -1,7 +1,6 @@
 #include "sphparam/bake/body.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <initializer_list>

@@ -1,7 +1,6 @@
 #include "bake/texels/texel_points.h"
 
 #include <numbers>
-#include <optional>
 #include <stdexcept>
 
 #include "bake/projected_surface.h"

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
 
 #include "embedding/energy/packed_triangles.h"
 #include "sphparam/parallel.h"

@@ -1,6 +1,5 @@
 #include "io/attributes/authorship.h"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string_view>
 

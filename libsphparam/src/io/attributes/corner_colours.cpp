@@ -1,6 +1,5 @@
 #include "io/attributes/corner_colours.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 

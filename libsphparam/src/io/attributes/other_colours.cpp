@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace sphparam {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <string_view>
 #include <system_error>
-#include <utility>
 #include <vector>
 
 #include "io/attributes/appearance.h"

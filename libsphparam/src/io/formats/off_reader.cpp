@@ -1,7 +1,6 @@
 #include "io/formats/off_reader.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>

@@ -1,6 +1,5 @@
 #include "mesh/handles/cap.h"
 
-#include <algorithm>
 #include <array>
 #include <utility>
 

@@ -1,7 +1,5 @@
 #include "mesh/handles/loop_basis.h"
 
-#include <algorithm>
-
 #include "mesh/union_find.h"
 
 // The tree is by breadth; the cotree takes the edges that are far from its roots first, so that

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <queue>
 
 #include "mesh/face_sides.h"

@@ -1,7 +1,5 @@
 #include "mesh/repair/paired_faces.h"
 
-#include <algorithm>
-
 // Turning rewrites the two faces in place, splitting and collapsing rewrite what is there and add
 // or drop two faces. Corners keep the attributes of the corner that was at the same vertex of the
 // same face; a middle vertex's corners take the mean of the side's two ends.

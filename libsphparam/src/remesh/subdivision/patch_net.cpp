@@ -10,7 +10,6 @@
 #include <limits>
 #include <stdexcept>
 #include <tuple>
-#include <utility>
 
 namespace sphparam {
 

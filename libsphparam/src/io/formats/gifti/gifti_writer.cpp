@@ -1,7 +1,6 @@
 #include "io/formats/gifti/gifti_writer.h"
 
 #include <algorithm>
-#include <cstring>
 #include <optional>
 #include <vector>
 

@@ -1,7 +1,6 @@
 #include "io/formats/obj/obj_writer.h"
 
 #include <array>
-#include <cstdint>
 #include <numeric>
 #include <optional>
 

@@ -1,10 +1,8 @@
 #include "io/formats/ply/missing_values.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
-#include <string_view>
 
 #include "number_text.h"
 #include "sphparam/io/losses.h"

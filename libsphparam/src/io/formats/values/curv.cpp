@@ -1,6 +1,5 @@
 #include "io/formats/values/curv.h"
 
-#include <cmath>
 #include <cstdint>
 
 #include "io/formats/values/values_file.h"
