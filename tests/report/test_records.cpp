@@ -296,8 +296,12 @@ TEST_CASE("harmonics_record: coefficients come back exactly, as JSON and as a ta
   const HarmonicExpansion expansion = expand_in_harmonics(mapped, {}, {.degree = 2});
   const Json json = Json::parse(to_json(expansion, "ball.ply", {{"method", "none"}}));
   CHECK(keys_of(json) ==
-        "sphparam,command,mesh,map,degree,basis,fit,iterations,position_rms,position_rms_relative,"
-        "position_rms_unweighted,rms,first_order_ellipsoid,functions");
+        "sphparam,command,mesh,map,degree,basis,fit,iterations,converged,decided_degree,"
+        "position_rms,position_rms_relative,position_rms_unweighted,rms,first_order_ellipsoid,"
+        "functions");
+  CHECK(json["converged"] == true);
+  CHECK(json["decided_degree"] == 2);
+  CHECK(undecided_line(expansion).empty());
   CHECK(json["map"]["method"] == "none");
   const Functions& coefficients = expansion.fit.coefficients;
   REQUIRE(json["functions"].size() == 3);
@@ -313,6 +317,19 @@ TEST_CASE("harmonics_record: coefficients come back exactly, as JSON and as a ta
   CHECK(std::stod(line.substr(line.rfind(',') + 1)) == coefficients(harmonic_index(1, 0), 2));
 }
 
+TEST_CASE(
+    "harmonics_record: what vertices do not decide is told, with numbers where there are too few") {
+  HarmonicExpansion expansion = expand_in_harmonics(ball(0), {}, {.degree = 4});
+  expansion.fit.decided_degree = 2;
+  CHECK(undecided_line(expansion) ==
+        "25 coefficients for 12 vertices: the vertices decide harmonics up to degree 2, and what "
+        "they leave open beyond is near the integral's");
+  CHECK(Json::parse(to_json(expansion, "b", {}))["decided_degree"] == 2);
+  HarmonicExpansion enough = expand_in_harmonics(ball(), {}, {.degree = 4});
+  enough.fit.decided_degree = 3;
+  CHECK_THAT(undecided_line(enough), StartsWith("the vertices decide harmonics up to degree 3"));
+}
+
 TEST_CASE("harmonics_record: 4π-normalised coefficients, and SHADR of the radius") {
   const MappedMesh mapped = ball();
   HarmonicExpansion expansion =
@@ -322,6 +339,9 @@ TEST_CASE("harmonics_record: 4π-normalised coefficients, and SHADR of the radiu
   expansion.normalisation = HarmonicNormalisation::FourPi;
   const Json json = Json::parse(to_json(expansion, "ball.ply", {}));
   CHECK_THAT(json["basis"].get<std::string>(), Contains("4pi-normalised"));
+  CHECK(json["centre"] == Json({0.1, 0.2, 0.3}));
+  CHECK(json["reference_radius"] == json["functions"][3]["coefficients"][0]);
+  CHECK_THAT(further_lines(expansion).back(), StartsWith("radius about 0.1, 0.2, 0.3: RMS "));
   const double factor = 1 / std::sqrt(4 * std::numbers::pi);
   for (Eigen::Index i = 0; i < orthonormal.rows(); ++i) {
     CHECK(json["functions"][3]["coefficients"][i].get<double>() ==
@@ -366,6 +386,7 @@ TEST_CASE("harmonics_record: what was told is read again, in either normalisatio
   CHECK(same.fit.coefficients == expansion.fit.coefficients);
   CHECK(same.map == map);
   CHECK(same.aligned == HarmonicAlignment::None);
+  CHECK(same.radius_about == Vector3(0.1, 0.2, 0.3));
   CHECK(same.fit.rms.size() == 0);
   expansion.normalisation = HarmonicNormalisation::FourPi;
   const HarmonicExpansion other = parse_harmonics(to_json(expansion, "ball.ply", map), "b.json");
@@ -374,7 +395,8 @@ TEST_CASE("harmonics_record: what was told is read again, in either normalisatio
   // Of it nothing is told that is not known; what is comes back again.
   const std::string again = to_json(same, "ball.ply", same.map);
   CHECK(keys_of(Json::parse(again)) ==
-        "sphparam,command,mesh,map,degree,basis,first_order_ellipsoid,functions");
+        "sphparam,command,mesh,map,degree,basis,centre,reference_radius,first_order_ellipsoid,"
+        "functions");
   CHECK(parse_harmonics(again, "b.json").fit.coefficients == same.fit.coefficients);
   const HarmonicExpansion coef =
       parse_harmonics("{ 4,{1, 2, 3},\n{4, 5, 6},\n{0, 0, 0},\n{0, 0, 0}}", "b.COEF");

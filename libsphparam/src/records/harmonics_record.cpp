@@ -11,6 +11,7 @@
 #include "csv_field.h"
 #include "io/files/file_bytes.h"
 #include "number_text.h"
+#include "place_text.h"
 #include "records/json_parts.h"
 #include "sphparam/io/coef_file.h"
 #include "sphparam/io/paths.h"
@@ -50,6 +51,11 @@ std::string fortran_number(double value) {
 std::string right_aligned(int number) {
   const std::string text = std::to_string(number);
   return std::string(5 - std::min<size_t>(text.size(), 5), ' ') + text;
+}
+
+/// C_00 of geodesy.
+double mean_radius(const HarmonicExpansion& expansion) {
+  return expansion.fit.coefficients.topRightCorner(1, 1).value() / std::sqrt(4 * std::numbers::pi);
 }
 
 Json rows_json(const Eigen::Matrix3d& matrix) {
@@ -154,6 +160,11 @@ HarmonicAlignment alignment_of(const Document& json) {
                                                     : HarmonicAlignment::SphereAndSurface;
 }
 
+Vector3 centre_of(const Document& numbers) {
+  const auto centre = numbers.get<std::array<double, 3>>();
+  return Vector3(centre.data());
+}
+
 /// Lines that a mesh of them tells again.
 Provenance map_of(const Document& json) {
   Provenance lines;
@@ -172,6 +183,8 @@ HarmonicExpansion of_json(const Document& json, const std::string& file) {
   if (expansion.normalisation == HarmonicNormalisation::FourPi)
     expansion.fit.coefficients *= std::sqrt(4 * std::numbers::pi);
   expansion.aligned = alignment_of(json);
+  if (json.contains("centre") && expansion.functions.back() == "radius")
+    expansion.radius_about = centre_of(json["centre"]);
   expansion.map = map_of(json);
   if (expansion.aligned != HarmonicAlignment::None)
     std::erase_if(expansion.map, [](const auto& line) { return line.first == "upright"; });
@@ -222,12 +235,18 @@ std::string to_json(const HarmonicExpansion& expansion, const std::string& mesh,
   if (is_measured) {
     json["fit"] = expansion.least_squares ? "least-squares" : "quadrature";
     json["iterations"] = expansion.fit.iterations;
+    json["converged"] = expansion.fit.converged;
+    json["decided_degree"] = expansion.fit.decided_degree.value_or(expansion.degree());
     json["position_rms"] = expansion.position_rms();
     json["position_rms_relative"] = expansion.position_rms() / expansion.diagonal;
     json["position_rms_unweighted"] = expansion.plain_position_rms();
     json["rms"] = rms_meaning;
   }
   if (is_measured && !expansion.least_squares) json["quadrature"] = quadrature_json(expansion.fit);
+  if (expansion.radius_about) {
+    json["centre"] = vector_json(*expansion.radius_about);
+    json["reference_radius"] = mean_radius(expansion);
+  }
   if (expansion.degree() >= 1) {
     json["first_order_ellipsoid"] =
         vector_json(first_order_ellipsoid(expansion.fit.coefficients.leftCols(3)));
@@ -285,6 +304,17 @@ std::string residual_line(const HarmonicExpansion& expansion) {
          short_number(expansion.plain_position_rms());
 }
 
+std::string undecided_line(const HarmonicExpansion& expansion) {
+  if (!expansion.fit.decided_degree) return "";
+  const Eigen::Index count = expansion.fit.coefficients.rows(), vertices = expansion.values.rows();
+  const std::string numbers = count > vertices ? std::to_string(count) + " coefficients for " +
+                                                     std::to_string(vertices) + " vertices: "
+                                               : "";
+  return numbers + "the vertices decide harmonics up to degree " +
+         std::to_string(*expansion.fit.decided_degree) +
+         ", and what they leave open beyond is near the integral's";
+}
+
 std::vector<std::string> further_lines(const HarmonicExpansion& expansion) {
   std::vector<std::string> lines;
   if (!expansion.least_squares) lines.push_back(quadrature_line(expansion.fit));
@@ -303,9 +333,12 @@ std::vector<std::string> further_lines(const HarmonicExpansion& expansion) {
   }
   for (size_t k = 3; k < expansion.functions.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
-    lines.push_back(expansion.functions[k] + ": RMS residual, weighted, " +
-                    short_number(expansion.fit.rms[i]) + ", unweighted " +
-                    short_number(expansion.plain_rms[i]));
+    const bool is_radius = expansion.radius_about && k + 1 == expansion.functions.size();
+    lines.push_back(
+        expansion.functions[k] +
+        (is_radius ? " about " + place_text(*expansion.radius_about, expansion.diagonal) : "") +
+        ": RMS residual, weighted, " + short_number(expansion.fit.rms[i]) + ", unweighted " +
+        short_number(expansion.plain_rms[i]));
   }
   return lines;
 }

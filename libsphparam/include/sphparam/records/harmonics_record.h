@@ -16,9 +16,9 @@ std::string to_json(const HarmonicExpansion& expansion, const std::string& mesh,
                     const Provenance& map);
 
 /// The coefficients that a file of `to_json` has, or one of SPHARM-PDM (.coef, of x, y, z), by its
-/// name: `functions` and `fit.coefficients`; of the former also `map`, `normalisation` and
-/// `aligned`. Nothing else is known: residuals and values are empty.
-/// Throws: ReadError; for names of functions, too, that are not x, y, z and then others, each once.
+/// name: `functions` and `fit.coefficients`; of the former also `map`, `normalisation`, `aligned`
+/// and `radius_about`. Nothing else is known: residuals and values are empty. Throws: ReadError;
+/// for names of functions, too, that are not x, y, z and then others, each once.
 HarmonicExpansion read_harmonics(const std::string& path);
 /// The same from text in memory; `name` is for messages, and tells which of both it is.
 HarmonicExpansion parse_harmonics(std::string_view text, const std::string& name);
@@ -37,6 +37,10 @@ std::string to_shadr(const HarmonicExpansion& expansion, const std::string& func
 /// For people: "degree 20, RMS distance at the vertices, weighted by solid angle, 0.12 (0.01 % of
 /// the diagonal), unweighted 0.13".
 std::string residual_line(const HarmonicExpansion& expansion);
+
+/// For people: up to which degree the vertices decide the coefficients, where they do not decide
+/// all; else empty.
+std::string undecided_line(const HarmonicExpansion& expansion);
 
 /// For people: the first-order ellipsoid, and what is left of each scalar; a line each.
 std::vector<std::string> further_lines(const HarmonicExpansion& expansion);
