@@ -321,6 +321,7 @@ void measure(Maker& make) {
   words.insert(words.end(), {"--samples", make.number(1, 3000)});
   make.maybe(words, 0.4, {"--over", make.some_of({"faces", "edges", "vertices"})});
   make.maybe(words, 0.3, {"--per-vertex", "error.ply"});
+  make.maybe(words, 0.2, {"--growth"});
   make.maybe(words, 0.3, {"--max-rms", make.one_of({"0.1%", "1e-300", "1"})});
   make.maybe(words, 0.3, {"--json", "distance.json"});
   make.errand.commands.push_back(words);
@@ -342,14 +343,20 @@ void spharm(Maker& make) {
   Words words = {"spharm", make.mesh("mesh"), "--degree", make.number(0, 12)};
   if (make.has_scalar) make.maybe(words, 0.3, {"--scalar", "depth"});
   make.maybe(words, 0.4, {"--fit", "quadrature"});
-  make.maybe(words, 0.5,
-             {"--reconstruct", make.one_of({"smooth.ply", "smooth.obj", "smooth.off"})});
+  const std::string smooth = make.one_of({"smooth.ply", "smooth.obj", "smooth.off"});
+  if (make.chance(0.5)) {
+    words.insert(words.end(), {"--reconstruct", smooth});
+    make.maybe(words, 0.4, {"--grid", make.any_grid()});
+  }
   make.maybe(words, 0.3, {"--csv", "harmonics.csv"});
   make.maybe(words, 0.3, {"--radius", "--centre", make.one_of({"0,0,0", "1e300,-1,2"})});
   make.maybe(words, 0.3, {"--shadr", "radius.sha"});
   make.maybe(words, 0.3, {"--normalisation", "4pi"});
   words.insert(words.end(), {"--json", "harmonics.json"});
   make.errand.commands.push_back(words);
+  if (make.chance(0.3))
+    make.errand.commands.push_back({"spharm", "harmonics.json", "--grid", make.any_grid(),
+                                    "--degree", make.number(0, 12), "--reconstruct", "again.ply"});
 }
 
 void export_mesh(Maker& make) {

@@ -217,6 +217,34 @@ TEST_CASE("spharm: the radius of a radial map, in geodesy's normalisation, and a
   CHECK_THAT(far.err, Contains("--centre: it is so far from the mesh"));
 }
 
+TEST_CASE("spharm: what the vertices leave open is told, with the degree that leaves it out") {
+  const Folder folder;
+  // Longitudes and latitudes 15° apart, and a body that is rough beyond all degrees.
+  TriangleMesh body = uv_sphere(24, 11);
+  for (Eigen::Index v = 0; v < body.vertex_count(); ++v)
+    body.positions.row(v) *= 10 + 0.1 * std::sin(double(7 * v * v % 101));
+  const std::string map = folder / "body.sph.ply";
+  REQUIRE(sphparam_program({"map", "-", "-o", map, "--method", "radial"}, obj_text(body)).code ==
+          0);
+  const auto power = [&](const char* degree, bool is_told) {
+    const Ended ended =
+        sphparam_program({"spharm", map, "--radius", "--degree", degree, "--json", "-"});
+    INFO(ended.err);
+    REQUIRE(ended.code == 0);
+    CHECK((ended.err.find("warning: the vertices decide harmonics up to degree 11, and what they "
+                          "leave open beyond is near the integral's; --degree 11 leaves it out, "
+                          "--fit quadrature is the integral\n") != std::string::npos) == is_told);
+    const Json report = Json::parse(ended.out);
+    CHECK(report["converged"] == !is_told);
+    CHECK(report["decided_degree"] == 11);
+    CHECK(report["centre"] == Json::array({0.0, 0.0, 0.0}));
+    return report["functions"][3]["power_per_degree"].back().get<double>();
+  };
+  const double decided = power("11", false);
+  CHECK(power("12", true) < 10 * decided);
+  CHECK(power("13", true) < 10 * decided);
+}
+
 TEST_CASE("spharm: --align gives a turned mesh the same coefficients, and writes the turned map") {
   const Folder folder;
   TriangleMesh body = icosphere(3);
@@ -321,6 +349,10 @@ TEST_CASE("spharm: a surface on a grid, of a mesh and of its coefficients in a f
       CHECK(std::abs(three.mesh.positions(v, k) - Vector3(2, 1, 0.5)[k] * ray) < 1e-8);
     }
   }
+  const Ended bare = run({folder / "two.sph.ply", "--degree", "1", "--scalar", "height", "--grid",
+                          "ico:1", "--reconstruct", folder / "bare.ply"});
+  CHECK(bare.code == 0);
+  CHECK_THAT(bare.err, !Contains("not carried"));
   // Other vertices, without a mesh of ours.
   REQUIRE(run({folder / "egg.json", "--grid", "like:" + ball, "--reconstruct", folder / "l.ply"})
               .code == 0);

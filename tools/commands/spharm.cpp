@@ -22,6 +22,7 @@
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/planetocentric.h"
+#include "sphparam/io/sphere_file.h"
 #include "sphparam/measure/measurable.h"
 #include "sphparam/records/harmonics_record.h"
 #include "sphparam/remesh/harmonic_surface.h"
@@ -206,14 +207,12 @@ void require_sensible(const SpharmArguments& arguments) {
                 {"--reconstruct", arguments.reconstruction}});
 }
 
-/// More coefficients than vertices: the residual at the vertices says nothing then.
-void warn_of_few_vertices(const SpharmArguments& arguments, const MeshFile& file,
-                          Console& console) {
-  const std::int64_t orders = arguments.wanted_degree() + 1, count = orders * orders;
-  if (!arguments.least_squares || count <= file.mesh.vertex_count()) return;
-  console.warning(std::to_string(count) + " coefficients for " +
-                  std::to_string(file.mesh.vertex_count()) +
-                  " vertices: what these leave open is as in --fit quadrature");
+/// The residual at the vertices says nothing of what they leave open.
+void warn_of_open_degrees(const HarmonicExpansion& expansion, Console& console) {
+  const std::string open = undecided_line(expansion);
+  if (open.empty()) return;
+  console.warning(open + "; --degree " + std::to_string(*expansion.fit.decided_degree) +
+                  " leaves it out, --fit quadrature is the integral");
 }
 
 /// The mesh with its map; what it lacks is told before it is mapped.
@@ -252,11 +251,12 @@ Words left_out_on_grid(const MappedMesh& mapped, const HarmonicExpansion& expans
     for (const Property& property : properties)
       if (std::ranges::find(kept, property.name) == kept.end()) names.push_back(property.name);
   };
-  add(mapped.file().vertex_properties);
-  add(mapped.file().face_properties);
-  if (mapped.file().corner_texcoords) names.emplace_back("texture coordinates");
+  const MeshFile file = without_map(mapped.file());
+  add(file.vertex_properties);
+  add(file.face_properties);
+  if (file.corner_texcoords) names.emplace_back("texture coordinates");
   if (!names.empty()) add_loss(losses, enumerated(names) + ": on a grid is what was expanded");
-  add_sampling_losses(losses, mapped.file());
+  add_sampling_losses(losses, file);
   return losses;
 }
 
@@ -295,8 +295,8 @@ int run_spharm(SpharmArguments& arguments) {
   if (has_coefficients(arguments.input)) return run_coefficients(arguments);
   Session session(arguments);
   const MappedMesh mapped = read_expanded(arguments, session);
-  warn_of_few_vertices(arguments, mapped.file(), session.console);
   HarmonicExpansion expansion = expand(arguments, mapped, session);
+  warn_of_open_degrees(expansion, session.console);
   align_as_asked(arguments, mapped, expansion, session);
   session.add_report([&] { return to_json(expansion, arguments.input, mapped.provenance()); });
   if (expansion.fit.quadrature_change.value_or(0) > settled_quadrature)
@@ -310,7 +310,8 @@ int run_spharm(SpharmArguments& arguments) {
   session.console.say(display_name(arguments.input) + ": " + residual_line(expansion) + ", " +
                       short_number(session.stopwatch.seconds()) + " s");
   for (const std::string& line : further_lines(expansion)) session.console.say("  " + line);
-  session.console.detail("  " + std::to_string(expansion.fit.iterations) + " iterations");
+  session.console.detail("  " + std::to_string(expansion.fit.iterations) + " iterations" +
+                         (expansion.fit.converged ? "" : ", not converged"));
   return Ok;
 }
 
