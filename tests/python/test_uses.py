@@ -1,6 +1,7 @@
 """What maps are good for: each use against a law or against what the program writes."""
 
 import base64
+import json
 import os
 import re
 import subprocess
@@ -562,6 +563,21 @@ def test_harmonics_are_a_surface_on_any_grid_and_files(mapped, tmp_path):
     shape.coefficients = shape.coefficients[:, :3]
     with pytest.raises(ValueError, match="coefficients: 4 columns are needed"):
         shape.surface("ico:2")
+
+
+def test_distances_are_over_what_is_asked_for(mapped, tmp_path):
+    low = mapped.remesh("ico:3")
+    mapped.save(tmp_path / "a.ply"), low.save(tmp_path / "b.ply")
+    program("measure", "a.ply", "b.ply", "--samples", "500", "--over", "vertices,edges", "--json", "d.json", cwd=tmp_path)
+    theirs = json.loads((tmp_path / "d.json").read_text())["first_to_second"]
+    ours = sp.measure(mapped, low, samples=500, over=["vertices", "edges"]).forth
+    assert (ours.rms, ours.mean, ours.samples) == (theirs["RMS"], theirs["mean"], theirs["n_samples"])
+    assert sp.measure(mapped, low, samples=500, over="vertices").forth.samples == len(V)
+    for wrong in ("corners", (), ["faces", "all"]):
+        with pytest.raises(ValueError, match="over: 'faces', 'edges', 'vertices'"):
+            sp.measure(mapped, low, over=wrong)
+    with pytest.raises(TypeError, match="over"):
+        sp.measure(mapped, low, over=3)
 
 
 def test_growth_is_of_faces_and_of_what_is_about_vertices(mapped):

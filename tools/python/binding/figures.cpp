@@ -4,6 +4,7 @@
 
 #include <array>
 #include <numbers>
+#include <set>
 
 #include "arrays.h"
 #include "binding.h"
@@ -28,8 +29,8 @@ namespace sphparam::python {
 namespace {
 
 py::dict measure(const Source& first, const Source& second, std::int64_t samples,
-                 std::uint64_t seed, bool extremes, bool deviations, int threads,
-                 const py::object& progress) try {
+                 std::uint64_t seed, const std::set<std::string>& over, bool extremes,
+                 bool deviations, int threads, const py::object& progress) try {
   using Mesh = std::shared_ptr<const TriangleMesh>;
   // What closes holes is no surface.
   const auto surface = [](const MeshFile& file) {
@@ -40,6 +41,9 @@ py::dict measure(const Source& first, const Source& second, std::int64_t samples
     return measure_distance(*one, *other,
                             {.samples = samples,
                              .seed = seed,
+                             .faces = over.contains("faces"),
+                             .edges = over.contains("edges"),
+                             .vertices = over.contains("vertices"),
                              .extremes = extremes,
                              .deviations = deviations,
                              .threads = threads,

@@ -1,6 +1,6 @@
 """What the C++ library has; users want the package above it."""
 
-from typing import Any, Callable, Dict, List, NoReturn, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, List, NoReturn, Optional, Sequence, Set, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -195,7 +195,8 @@ def report(
     mapped: Mapped, path: str, size: int, up: str, front: str, threads: int, progress: _Report
 ) -> None: ...
 def measure(
-    first: Source, second: Source, samples: int, seed: int, extremes: bool, deviations: bool, threads: int, progress: _Report
+    first: Source, second: Source, samples: int, seed: int, over: Set[str], extremes: bool, deviations: bool, threads: int,
+    progress: _Report,  # fmt: skip
 ) -> Dict[str, Any]: ...
 def growth(first: Source, second: Source) -> Tuple[_Floats, _Floats]: ...
 def expand(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Tuple
+from typing import TYPE_CHECKING, Any, Iterable, Tuple, Union
 
 from . import _arrays, _core
 from ._figures import Distance, one_sided
@@ -31,6 +31,7 @@ def measure(
     *,
     samples: int = 1_000_000,
     seed: int = 1,
+    over: Union[str, Iterable[str]] = "faces",
     extremes: bool = True,
     signed: bool = False,
     threads: int = 0,
@@ -44,6 +45,8 @@ def measure(
         Meshes as :class:`Mesh` takes them, a pair of arrays among them, or maps.
     samples
         On the faces of each, from 1.
+    over
+        What mean and RMS are over: ``"faces"``, ``"edges"``, ``"vertices"`` or several of these; MeshLab's filter takes all three.
     extremes
         False: RMS and mean alone, in half the time.
     signed
@@ -54,12 +57,15 @@ def measure(
     other way.
     """
     samples, seed = _arrays.whole(samples, "samples", 1, 2**63 - 1), _arrays.whole(seed, "seed", 0, 2**64 - 1)
+    words = {_arrays.text(word, "over") for word in ([over] if isinstance(over, str) else _arrays.listed(over, "over", "texts"))}
+    if not words or words - {"faces", "edges", "vertices"}:
+        raise ValueError(f"over: 'faces', 'edges', 'vertices' or several of these, not {over!r}")
     meshes = [any_mesh(mesh, None) for mesh in (first, second)]
     for mesh in meshes:
         mesh._require_sound()
     with told(progress) as report:
         found = _core.measure(
-            meshes[0]._source, meshes[1]._source, samples, seed, _arrays.flag(extremes, "extremes"), _arrays.flag(signed, "signed"),
+            meshes[0]._source, meshes[1]._source, samples, seed, words, _arrays.flag(extremes, "extremes"), _arrays.flag(signed, "signed"),
             _arrays.threads(threads), report,  # fmt: skip
         )
     found["forth"], found["back"] = one_sided(found["forth"]), one_sided(found["back"])
