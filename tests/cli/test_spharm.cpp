@@ -219,10 +219,11 @@ TEST_CASE("spharm: the radius of a radial map, in geodesy's normalisation, and a
 
 TEST_CASE("spharm: what the vertices leave open is told, with the degree that leaves it out") {
   const Folder folder;
-  // Longitudes and latitudes 15° apart, and a body that is rough beyond all degrees.
+  // Longitudes and latitudes 15° apart, in float32, and a body that is rough beyond all degrees.
   TriangleMesh body = uv_sphere(24, 11);
   for (Eigen::Index v = 0; v < body.vertex_count(); ++v)
     body.positions.row(v) *= 10 + 0.1 * std::sin(double(7 * v * v % 101));
+  body.positions = body.positions.cast<float>().cast<double>();
   const std::string map = folder / "body.sph.ply";
   REQUIRE(sphparam_program({"map", "-", "-o", map, "--method", "radial"}, obj_text(body)).code ==
           0);
