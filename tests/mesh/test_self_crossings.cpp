@@ -27,21 +27,26 @@ TriangleMesh block_corner(double length) {
 /// The second one's corner comes through the slanted face of the first.
 TriangleMesh two_blocks() { return joined(block_corner(4), block_corner(4), {1, 1, 1}); }
 
-/// An L, extruded: its floor and ceiling are fans about `middle`.
+/// An L, extruded: walls of two triangles each, floor and ceiling of six about a vertex at (x, y),
+/// which is in sight of all corners at (0.5, 0.5).
 TriangleMesh extruded_L(double x, double y) {
-  const std::vector<std::array<double, 2>> outline{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
-  const int n = 6;
-  std::vector<Vector3> places;
-  for (const double z : {0.0, 1.0})
-    for (const auto& [u, v] : outline) places.emplace_back(u, v, z);
-  for (const double z : {0.0, 1.0}) places.emplace_back(x, y, z);
-  std::vector<std::array<int, 3>> faces;
+  constexpr int n = 6;
+  const std::array<std::array<double, 2>, n> outline{
+      {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}};
+  TriangleMesh mesh{Points(2 * n + 2, 3), Triangles(4 * n, 3)};
   for (int i = 0; i < n; ++i) {
+    const auto& [u, v] = outline[static_cast<size_t>(i)];
+    mesh.positions.row(i) << u, v, 0;
+    mesh.positions.row(n + i) << u, v, 1;
     const int j = (i + 1) % n;
-    faces.insert(faces.end(),
-                 {{i, j, n + j}, {i, n + j, n + i}, {j, i, 2 * n}, {n + i, n + j, 2 * n + 1}});
+    mesh.triangles.row(4 * i) << i, j, n + j;
+    mesh.triangles.row(4 * i + 1) << i, n + j, n + i;
+    mesh.triangles.row(4 * i + 2) << j, i, 2 * n;
+    mesh.triangles.row(4 * i + 3) << n + i, n + j, 2 * n + 1;
   }
-  return mesh_of(places, faces);
+  mesh.positions.row(2 * n) << x, y, 0;
+  mesh.positions.row(2 * n + 1) << x, y, 1;
+  return mesh;
 }
 
 /// Triangles that all run across the whole.

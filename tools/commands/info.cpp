@@ -59,6 +59,8 @@ int tell_mesh(const MeshSource& source, const InfoArguments& arguments, Session&
   InspectionRecord record = {.source = source};
   if (!source.inspection.is_sphere()) record.repair = try_repair(source);
   if (record.repair && record.repair->parts.refused) record.parts = try_parts(source);
+  session.console.progress("crossings", 0);
+  record.crossings = crossings_of(source.file, session.threads());
   record.seconds = session.stopwatch.seconds();
   publish(record, arguments, session);
   if (is_mappable(source)) return Ok;

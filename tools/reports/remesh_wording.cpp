@@ -14,6 +14,7 @@ void tell(const RemeshRecord& record, Console& console) {
     console.detail("  means over cells at " + std::to_string(figures.averaged) + " of " +
                    std::to_string(made.map().points.rows()) + " vertices");
   }
+  for (const std::string& warning : warnings_of(record)) console.warning(warning);
   std::string lines = to_text(record);
   lines.pop_back();  // its end of line is the console's
   console.say(lines);

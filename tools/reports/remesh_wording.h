@@ -5,7 +5,7 @@
 
 namespace sphparam::cli {
 
-/// What was made, and with -v how long its parts took.
+/// What was made, what may be wrong with it, and with -v how long its parts took.
 void tell(const RemeshRecord& record, Console& console);
 
 }  // namespace sphparam::cli

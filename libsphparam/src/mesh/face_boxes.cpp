@@ -35,7 +35,7 @@ void FaceBoxes::build(std::vector<Sorted>& sorted, int begin, int end) {
   for (int i = begin; i < end; ++i) {
     box.add(sorted[at(i)].box.lower);
     box.add(sorted[at(i)].box.upper);
-    middles.add(sorted[at(i)].middle());
+    middles.add({sorted[at(i)].middle(0), sorted[at(i)].middle(1), sorted[at(i)].middle(2)});
   }
   nodes_[node].box = box;
   if (end - begin <= most_in_leaf) {
@@ -47,8 +47,7 @@ void FaceBoxes::build(std::vector<Sorted>& sorted, int begin, int end) {
   const int middle = begin + (end - begin) / 2;
   std::nth_element(sorted.begin() + begin, sorted.begin() + middle, sorted.begin() + end,
                    [axis](const Sorted& a, const Sorted& b) {
-                     return std::pair(a.middle()[axis], a.face) <
-                            std::pair(b.middle()[axis], b.face);
+                     return std::pair(a.middle(axis), a.face) < std::pair(b.middle(axis), b.face);
                    });
   build(sorted, begin, middle);
   nodes_[node].second = static_cast<int>(nodes_.size());

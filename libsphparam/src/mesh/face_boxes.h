@@ -12,7 +12,7 @@
 namespace sphparam {
 
 /// A tree of upright boxes about faces, a few in each of its leaves, for pairs of faces that are
-/// near one another.
+/// near one another, and for those above a point.
 class FaceBoxes {
  public:
   static constexpr int most_in_leaf = 8;  // faces
@@ -29,6 +29,10 @@ class FaceBoxes {
   template <class Visit>
   std::int64_t visit_pairs(std::int64_t leaf, std::int64_t most, const Visit& visit) const;
 
+  /// Calls visit(f) for the faces whose boxes meet the ray from a point along +z.
+  template <class Visit>
+  void visit_above(const Vector3& point, const Visit& visit) const;
+
  private:
   struct Node {
     Box box;
@@ -39,12 +43,16 @@ class FaceBoxes {
   struct Sorted {
     Box box;
     Face face;
-    Vector3 middle() const { return box.lower / 2 + box.upper / 2; }
+    double middle(Eigen::Index axis) const { return box.lower[axis] / 2 + box.upper[axis] / 2; }
   };
 
   static size_t at(int i) { return static_cast<size_t>(i); }
   static bool overlap(const Box& a, const Box& b) {
     return (a.lower.array() <= b.upper.array()).all() && (b.lower.array() <= a.upper.array()).all();
+  }
+  static bool is_above(const Box& box, const Vector3& point) {
+    return (box.lower.head<2>().array() <= point.head<2>().array()).all() &&
+           (point.array() <= box.upper.array()).all();
   }
   void build(std::vector<Sorted>& sorted, int begin, int end);
 
@@ -78,6 +86,24 @@ std::int64_t FaceBoxes::visit_pairs(std::int64_t leaf, std::int64_t most,
     }
   }
   return looks;
+}
+
+template <class Visit>
+void FaceBoxes::visit_above(const Vector3& point, const Visit& visit) const {
+  std::vector<int> waiting;
+  if (!nodes_.empty()) waiting.push_back(0);
+  while (!waiting.empty()) {
+    const int i = waiting.back();
+    const Node& node = nodes_[at(i)];
+    waiting.pop_back();
+    if (!is_above(node.box, point)) continue;
+    if (node.second > 0) {
+      waiting.insert(waiting.end(), {node.second, i + 1});
+      continue;
+    }
+    for (int f = node.begin; f < node.end; ++f)
+      if (is_above(boxes_[at(f)], point)) visit(faces_[at(f)]);
+  }
 }
 
 }  // namespace sphparam

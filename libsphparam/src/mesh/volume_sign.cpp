@@ -63,6 +63,10 @@ int area_sign(const Vector3& a, const Vector3& b, const Vector3& c, int axis) {
   const double left = (a[u] - c[u]) * (b[v] - c[v]), right = (a[v] - c[v]) * (b[u] - c[u]);
   if (const int sign = filtered(left - right, std::abs(left) + std::abs(right), 0x1p-51))
     return sign;
+  const auto at_one_place = [&](const Vector3& p, const Vector3& q) {
+    return p[u] == q[u] && p[v] == q[v];
+  };
+  if (at_one_place(a, b) || at_one_place(b, c) || at_one_place(c, a)) return 0;
   const auto x = as_integers<6>({a[u], a[v], b[u], b[v], c[u], c[v]});
   const BigInteger area = (x[0] - x[4]) * (x[3] - x[5]) - (x[1] - x[5]) * (x[2] - x[4]);
   return area.sign();

@@ -86,6 +86,23 @@ std::string filler_line(const std::optional<ClosedHoles>& closed) {
                              counted(closed->holes, "hole", "holes") + "; no surface");
 }
 
+/// "3 pairs of 4 triangles, the first 3 and 4 at (1, 2, 3)"
+std::string crossings_text(const SelfCrossings& crossings, double length) {
+  if (crossings.none()) return "none: no triangle passes through another or lies over it";
+  if (crossings.pairs == 0)
+    return "none found, and not all were looked for: too many boxes overlap";
+  return (crossings.all ? "" : "at least ") + counted(crossings.pairs, "pair", "pairs") + " of " +
+         counted(crossings.faces, "triangle", "triangles") + ", the first " +
+         std::to_string(crossings.first[0]) + " and " + std::to_string(crossings.first[1]) +
+         " at (" + place_text(crossings.place, length) + ")";
+}
+
+std::string crossings_line(const InspectionRecord& record) {
+  if (!record.crossings) return "";
+  const MeshInspection& mesh = record.source.inspection;
+  return line("crossings", crossings_text(*record.crossings, (mesh.upper - mesh.lower).maxCoeff()));
+}
+
 std::string figures(const MeshSource& source, const std::optional<ClosedHoles>& closed) {
   const MeshInspection& mesh = source.inspection;
   const MeshFile& file = source.file;
@@ -136,6 +153,14 @@ Json defects_json(const std::vector<MeshDefect>& defects) {
 
 }  // namespace
 
+SelfCrossings crossings_of(const MeshFile& file, int threads) {
+  const SelfCrossingOptions options{.most_looks = usual_looks, .threads = threads};
+  const FillerMarks fillers = fillers_of(file);
+  if (fillers.empty()) return find_self_crossings(file.mesh, options);
+  if (std::ranges::count(fillers, 0) == 0) return {};  // no surface
+  return find_self_crossings(surface_in_place(file.mesh, fillers), options);
+}
+
 std::string to_json(const RefusalRecord& record) {
   return text_of({{"sphparam", version},
                   {"command", record.command},
@@ -154,6 +179,7 @@ std::string to_json(const InspectionRecord& record) {
                   {"command", "info"},
                   {"input", input_json(record.source)},
                   {"inspection", inspection},
+                  {"crossings", record.crossings ? crossings_json(*record.crossings) : Json()},
                   {"fillers", closed_json(closed)},
                   {"repair", trial_json(record.source, record.repair)},
                   {"welded", record.source.welded || is_soup(record.source.file)},
@@ -165,7 +191,8 @@ std::string to_json(const InspectionRecord& record) {
 std::string to_text(const InspectionRecord& record) {
   const MeshSource& source = record.source;
   const std::optional<ClosedHoles> closed = closed_holes(source.file);
-  std::string text = display_name(source.path) + "\n" + figures(source, closed);
+  std::string text =
+      display_name(source.path) + "\n" + figures(source, closed) + crossings_line(record);
   for (const auto& [key, value] : provenance_in(source.file)) text += line("map " + key, value);
   for (const std::string& note : source.notes) text += line("note", note);
   if (!source.inspection.defects.empty()) {

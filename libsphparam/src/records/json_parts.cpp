@@ -71,6 +71,16 @@ Json parts_json(const KeptParts& parts) {
           {"largest", largest}};
 }
 
+Json crossings_json(const SelfCrossings& crossings) {
+  Json first = nullptr;
+  if (crossings.pairs > 0)
+    first = {{"triangles", crossings.first}, {"place", vector_json(crossings.place)}};
+  return {{"pairs", crossings.pairs},
+          {"triangles", crossings.faces},
+          {"first", first},
+          {"all_looked_at", crossings.all}};
+}
+
 Json inspection_json(const MeshInspection& inspection) {
   Json defects = Json::array();
   for (const MeshDefect& defect : inspection.defects) defects.push_back(defect_json(defect));

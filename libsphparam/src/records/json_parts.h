@@ -9,6 +9,7 @@
 #include "sphparam/chart/chart_report.h"
 #include "sphparam/gltf/texture_format.h"
 #include "sphparam/io/mesh_source.h"
+#include "sphparam/mesh/self_crossings.h"
 #include "sphparam/parameterize.h"
 
 namespace sphparam {
@@ -24,6 +25,7 @@ Json vector_json(const Vector3& vector);
 Json input_json(const MeshSource& source);
 Json inspection_json(const MeshInspection& inspection);
 Json defect_json(const MeshDefect& defect);
+Json crossings_json(const SelfCrossings& crossings);
 Json repairs_json(const std::vector<RepairAction>& repairs);
 /// The loops that handles were cut along, in order.
 Json handles_json(const std::vector<HandleLoop>& loops);

@@ -133,6 +133,17 @@ std::string level_lines(const RemeshRecord& record, double diagonal) {
   return lines;
 }
 
+/// Null where nobody looked.
+Json in_space_json(const LevelOfDetail& level) {
+  if (!level.in_space) return nullptr;
+  const FacesInSpace& found = *level.in_space;
+  return {{"triangles", found.faces},
+          {"area_share", found.area_share},
+          {"turned_over", found.turned_over},
+          {"crossings", crossings_json(found.crossings)},
+          {"crossings_of_mesh", found.source_pairs}};
+}
+
 Json levels_json(const RemeshRecord& record) {
   Json json = Json::array();
   for (size_t i = 0; i < record.levels.size(); ++i) {
@@ -142,6 +153,7 @@ Json levels_json(const RemeshRecord& record) {
                     {"vertices", level.mesh.map().points.rows()},
                     {"faces", level.mesh.faces().count()},
                     {"triangles", level.mesh.mesh().face_count()},
+                    {"in_space", in_space_json(level)},
                     {"rms", level.distance.value().rms},
                     {"max", level.distance.value().max}});
   }
@@ -195,6 +207,15 @@ Json head_json(const RemeshRecord& record) {
 
 }  // namespace
 
+std::vector<std::string> warnings_of(const RemeshRecord& record) {
+  std::vector<std::string> warnings;
+  for (const LevelOfDetail& level : record.levels) {
+    if (!level.in_space || level.in_space->all_well()) continue;
+    warnings.push_back(warning_of(*level.in_space, record.source, level.mesh));
+  }
+  return warnings;
+}
+
 std::string to_json(const RemeshRecord& record) {
   const LevelOfDetail& finest = record.levels.front();
   const Remeshed::Figures& figures = finest.mesh.figures();
@@ -203,6 +224,8 @@ std::string to_json(const RemeshRecord& record) {
   json["averaged_vertices"] = figures.averaged;
   json["carried"] = carried_by(finest.mesh.file());
   json["certified"] = true;
+  json["in_space"] = in_space_json(finest);
+  json["warnings"] = warnings_of(record);
   if (finest.fit) json["subdivision"] = fit_json(*finest.fit, source_diagonal(record));
   if (record.layout) json["texture"] = layout_json(*record.layout);
   if (record.displacement)

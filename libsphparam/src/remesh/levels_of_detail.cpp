@@ -42,7 +42,12 @@ LevelOfDetail make_level(const MappedMesh& source, SphereGrid grid, const LevelO
                               .transfer = options.transfer,
                               .threads = options.threads,
                               .progress = options.progress})};
-  if (options.subdivision) fit_level(level, source, options);
+  if (options.subdivision)
+    fit_level(level, source, options);
+  else if (options.look_into_space)
+    level.in_space = faces_in_space(
+        source, level.mesh,
+        {.most_looks = usual_looks, .threads = options.threads, .progress = options.progress});
   return level;
 }
 
@@ -109,6 +114,7 @@ std::vector<MappedMesh> quartered_meshes(const MappedMesh& source, int count,
   const Eigen::Index finest = source.mesh().vertex_count();
   LevelOptions unfitted = options;
   unfitted.subdivision = {};
+  unfitted.look_into_space = false;
   std::vector<MappedMesh> meshes;
   for (int level = 1; level <= count; ++level) {
     // An icosahedron whose edges are cut into N has 10·N² + 2 vertices.

@@ -22,6 +22,9 @@ struct SelfCrossings {
   bool none() const { return all && pairs == 0; }
 };
 
+/// Looks a face that end a soup within a second or so of 100,000 faces, and no surface.
+constexpr int usual_looks = 1000;
+
 struct SelfCrossingOptions {
   /// Ends when more pairs were looked at than this many a face, as in soups whose faces all run
   /// across the whole; some 50 are on surfaces as they come. 0: goes on to the end.

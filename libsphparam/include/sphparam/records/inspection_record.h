@@ -7,6 +7,7 @@
 #include "sphparam/io/mesh_source.h"
 #include "sphparam/io/repair_advice.h"
 #include "sphparam/mesh/mesh_defects.h"
+#include "sphparam/mesh/self_crossings.h"
 
 namespace sphparam {
 
@@ -16,8 +17,13 @@ struct InspectionRecord {
   const MeshSource& source;
   std::optional<RepairTrial> repair = {};  // of a mesh that cannot be mapped as it is
   double seconds = 0;
-  std::optional<PartsTrial> parts = {};  // where components must be chosen from
+  std::optional<PartsTrial> parts = {};         // where components must be chosen from
+  std::optional<SelfCrossings> crossings = {};  // of what is surface; nothing: nobody looked
 };
+
+/// Counts the pairs of triangles of a mesh that cross, but for its fillers; of a soup it ends early
+/// (`usual_looks`). Cost: as `find_self_crossings`.
+SelfCrossings crossings_of(const MeshFile& file, int threads = 0);
 
 /// Why a subcommand made nothing of a mesh.
 struct RefusalRecord {

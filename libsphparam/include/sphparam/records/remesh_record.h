@@ -35,7 +35,10 @@ struct RemeshRecord {
   double grid_seconds = 0, seconds = 0;  // of making the grid; of all
 };
 
-/// As `sphparam remesh --json` tells it.
+/// What may be wrong with what was made, a line each: levels that lie over themselves in space.
+std::vector<std::string> warnings_of(const RemeshRecord& record);
+
+/// As `sphparam remesh --json` tells it, with its warnings.
 std::string to_json(const RemeshRecord& record);
 
 /// Several lines for people: how near fit, displacement and levels are, then what was made.

@@ -6,6 +6,7 @@
 
 #include "sphparam/io/mapped_mesh.h"
 #include "sphparam/progress.h"
+#include "sphparam/remesh/faces_in_space.h"
 #include "sphparam/remesh/remesh.h"
 #include "sphparam/remesh/sphere_grid.h"
 #include "sphparam/remesh/subdivision.h"
@@ -20,8 +21,9 @@ struct LevelOptions {
   /// A subdivision surface is fitted to each level: nested in vertices and directions, as near to
   /// the mesh as each can be. Loop for triangles, Catmull-Clark for quads.
   std::optional<Scheme> subdivision = {};
-  bool measure = true;  // `distance` of each level
-  int threads = 0;      // 0: all cores
+  bool measure = true;          // `distance` of each level
+  bool look_into_space = true;  // `in_space` of each level
+  int threads = 0;              // 0: all cores
   Progress progress = {};
 };
 
@@ -34,13 +36,15 @@ struct LevelOfDetail {
   };
   /// From the source, both ways, of what is seen: of the limit surface, where one is fitted.
   std::optional<Distance> distance = {};
+  /// Of flat faces: where a surface is fitted they are not what is seen.
+  std::optional<FacesInSpace> in_space = {};
 };
 
 /// The same mesh on one grid after another, each sampled from the source itself.
 /// Requires: grids as they should come out, finest first by custom; a scheme for the faces of all.
 /// Throws: as `remesh` and `fit_subdivision`; UnmeasurableMesh where distances to the source mean
 /// nothing, or nothing of its area is left on a grid; Cancelled.
-/// Cost: that of `remesh`, and some 0.5 s a level to measure.
+/// Cost: that of `remesh`, some 0.5 s a level to measure, and that of `faces_in_space`.
 std::vector<LevelOfDetail> levels_of_detail(const MappedMesh& source,
                                             std::span<const GridSpec> grids,
                                             const LevelOptions& options = {});

@@ -1,0 +1,139 @@
+#include "sphparam/remesh/faces_in_space.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "mesh/box.h"
+#include "mesh/triangle_geometry.h"
+#include "number_text.h"
+#include "place_text.h"
+#include "rays/flat_normal.h"
+#include "sphparam/parallel.h"
+
+// Signs of crossings are exact, those of normals are not: near a right angle it makes no difference
+// on which side of it one is.
+
+namespace sphparam {
+namespace {
+
+constexpr std::int64_t grain = 4096;
+
+/// Faces keep their numbers. Requires: some surface.
+TriangleMesh surface_alone(const MappedMesh& mapped) {
+  return mapped.fillers().empty() ? mapped.mesh()
+                                  : surface_in_place(mapped.mesh(), mapped.fillers());
+}
+
+Vector3 normal_of(const TriangleMesh& mesh, Face f) {
+  return flat_normal(mesh.position(mesh.triangles(f, 0)), mesh.position(mesh.triangles(f, 1)),
+                     mesh.position(mesh.triangles(f, 2)));
+}
+
+double area_of(const TriangleMesh& mesh, Face f) {
+  return triangle_area(mesh.position(mesh.triangles(f, 0)), mesh.position(mesh.triangles(f, 1)),
+                       mesh.position(mesh.triangles(f, 2)));
+}
+
+/// Directions of the middles of faces, of any length.
+Points middles(const MappedMesh& made) {
+  const Triangles& triangles = made.mesh().triangles;
+  const Points& rays = made.map().points;
+  Points result(triangles.rows(), 3);
+  for (Face f = 0; f < triangles.rows(); ++f)
+    result.row(f) =
+        rays.row(triangles(f, 0)) + rays.row(triangles(f, 1)) + rays.row(triangles(f, 2));
+  return result;
+}
+
+/// Of what lies about each vertex, weighted by area.
+Points normals_about(const TriangleMesh& mesh) {
+  Points sums = Points::Zero(mesh.vertex_count(), 3);
+  for (Face f = 0; f < mesh.face_count(); ++f) {
+    const Vector3 normal = area_of(mesh, f) * normal_of(mesh, f);
+    for (int k = 0; k < 3; ++k) sums.row(mesh.triangles(f, k)) += normal;
+  }
+  return sums;
+}
+
+/// By face of `shape`, which is what is looked at of `made`.
+FillerMarks turned_over(const MappedMesh& source, const MappedMesh& made, const TriangleMesh& shape,
+                        int threads) {
+  const std::vector<SurfacePoint> places = source.locator().locate_all(middles(made), threads);
+  const Points about = normals_about(shape);
+  FillerMarks marks(places.size());
+  parallel_for(std::ssize(places), grain, threads, [&](std::int64_t first, std::int64_t last) {
+    for (auto f = static_cast<Face>(first); f < last; ++f) {
+      const size_t i = static_cast<size_t>(f);
+      const Vector3 normal = normal_of(shape, f);
+      Vector3 around = Vector3::Zero();
+      for (int k = 0; k < 3; ++k) around += about.row(shape.triangles(f, k));
+      marks[i] = normal.dot(normal_of(source.mesh(), places[i].face)) < 0 && normal.dot(around) < 0;
+    }
+  });
+  return marks;
+}
+
+double share_of_area(const TriangleMesh& mesh, const FillerMarks& marks) {
+  double marked = 0, all = 0;
+  for (Face f = 0; f < mesh.face_count(); ++f) {
+    const double area = area_of(mesh, f);
+    all += area;
+    if (marks[static_cast<size_t>(f)]) marked += area;
+  }
+  return all > 0 ? marked / all : 0;
+}
+
+/// "3 pairs of triangles cross, the first about 1 2 3; 2 are turned over"
+std::string kinds(const FacesInSpace& found, const TriangleMesh& mesh) {
+  const SelfCrossings& crossings = found.crossings;
+  std::vector<std::string> words;
+  if (crossings.pairs > 0)
+    words.push_back((crossings.all ? "" : "at least ") +
+                    counted(crossings.pairs, "pair crosses", "pairs cross") + ", the first at (" +
+                    place_text(crossings.place, longest_side(mesh)) + ")");
+  if (found.turned_over > 0)
+    words.push_back(counted(found.turned_over, "is turned over", "are turned over"));
+  return joined(words, "; ");
+}
+
+std::string what_helps(const FacesInSpace& found, const MappedMesh& source,
+                       const MappedMesh& made) {
+  if (found.source_pairs > 0)
+    return "the mesh itself has " + counted(found.source_pairs, "pair", "pairs") + " that cross";
+  return source.mesh().face_count() < made.mesh().face_count()
+             ? "cut the triangles of the mesh smaller than the grid's before it is mapped, each "
+               "flat in four: a map bends at their sides"
+             : "on a finer grid they are a smaller share of it";
+}
+
+}  // namespace
+
+FacesInSpace faces_in_space(const MappedMesh& source, const MappedMesh& made,
+                            const SelfCrossingOptions& options) {
+  if (made.surface().face_count() == 0) return {};
+  const TriangleMesh shape = surface_alone(made);
+  FacesInSpace found{.crossings = find_self_crossings(shape, options)};
+  report(options.progress, "normals", 0);
+  FillerMarks marks = turned_over(source, made, shape, options.threads);
+  found.turned_over = std::ranges::count(marks, 1);
+  for (size_t f = 0; f < found.crossings.marks.size(); ++f) marks[f] |= found.crossings.marks[f];
+  found.faces = std::ranges::count(marks, 1);
+  found.area_share = share_of_area(shape, marks);
+  if (found.crossings.pairs > 0)
+    found.source_pairs = find_self_crossings(surface_alone(source), options).pairs;
+  return found;
+}
+
+std::string warning_of(const FacesInSpace& found, const MappedMesh& source,
+                       const MappedMesh& made) {
+  if (found.all_well()) return "";
+  if (found.faces == 0)
+    return made.name() + ": too many triangles are near one another to say whether any cross";
+  return made.name() + ": " + std::to_string(found.faces) + " of " +
+         counted(made.mesh().face_count(), "triangle", "triangles") + ", " +
+         percent(found.area_share) + " of the area, cross others in space or lie inverted (" +
+         kinds(found, made.mesh()) + "): what is proved is the map; " +
+         what_helps(found, source, made);
+}
+
+}  // namespace sphparam

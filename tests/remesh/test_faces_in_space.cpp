@@ -1,0 +1,137 @@
+#include <algorithm>
+#include <array>
+#include <catch2/catch.hpp>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "sphparam/remesh/adaptation.h"
+#include "sphparam/remesh/faces_in_space.h"
+#include "sphparam/remesh/remesh.h"
+#include "support/mapped.h"
+#include "support/test_meshes.h"
+
+namespace sphparam::tests {
+namespace {
+
+using Catch::Contains;
+
+/// A bracket's L, extruded, of 20 large triangles: 80 × 60 × 25, walls 8 thick.
+TriangleMesh bracket() {
+  constexpr int n = 6, notch = 3;
+  const std::array<std::array<double, 2>, n> outline{
+      {{0, 0}, {80, 0}, {80, 8}, {8, 8}, {8, 60}, {0, 60}}};
+  TriangleMesh mesh{Points(2 * n, 3), Triangles(4 * n - 4, 3)};
+  Face f = 0;
+  for (int i = 0; i < n; ++i) {
+    const int j = (i + 1) % n;
+    const auto& [u, v] = outline[static_cast<size_t>(i)];
+    mesh.positions.row(i) << u, v, 0;
+    mesh.positions.row(n + i) << u, v, 25;
+    mesh.triangles.row(f++) << i, j, n + j;
+    mesh.triangles.row(f++) << i, n + j, n + i;
+    if (i == notch || j == notch) continue;
+    mesh.triangles.row(f++) << notch, j, i;
+    mesh.triangles.row(f++) << n + notch, n + i, n + j;
+  }
+  return mesh;
+}
+
+/// Each triangle cut into four, flat.
+TriangleMesh in_four(const TriangleMesh& mesh) {
+  std::map<std::pair<int, int>, int> middles;
+  std::vector<Vector3> places;
+  for (Vertex v = 0; v < mesh.vertex_count(); ++v) places.push_back(mesh.position(v));
+  const auto middle = [&](int a, int b) {
+    const auto [entry, is_new] =
+        middles.try_emplace(std::minmax(a, b), static_cast<int>(places.size()));
+    if (is_new) places.emplace_back((mesh.position(a) + mesh.position(b)) / 2);
+    return entry->second;
+  };
+  TriangleMesh fine{{}, Triangles(4 * mesh.face_count(), 3)};
+  for (Face f = 0; f < mesh.face_count(); ++f) {
+    const int a = mesh.triangles(f, 0), b = mesh.triangles(f, 1), c = mesh.triangles(f, 2);
+    const int ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+    fine.triangles.row(4 * f) << a, ab, ca;
+    fine.triangles.row(4 * f + 1) << ab, b, bc;
+    fine.triangles.row(4 * f + 2) << ca, bc, c;
+    fine.triangles.row(4 * f + 3) << ab, bc, ca;
+  }
+  fine.positions.resize(std::ssize(places), 3);
+  for (size_t v = 0; v < places.size(); ++v)
+    fine.positions.row(static_cast<Eigen::Index>(v)) = places[v];
+  return fine;
+}
+
+/// As `remesh` of the program maps it.
+MappedMesh mapped(const TriangleMesh& mesh) {
+  MeshSource source;
+  source.file.mesh = mesh;
+  LoadOptions options;
+  options.map.energy.lambda = remeshing_lambda;
+  return mapped_mesh(source, options);
+}
+
+}  // namespace
+
+TEST_CASE("faces in space: a ball on a grid lies well") {
+  const TriangleMesh ball = icosphere(4);
+  const MappedMesh source = tests::mapped(ball, SphereMap{ball.positions});
+  const Remeshed made = remesh(source, make_grid(parse_grid("ico:3")));
+  const FacesInSpace found = faces_in_space(source, made);
+  CHECK(found.all_well());
+  CHECK(found.area_share == 0);
+  CHECK(warning_of(found, source, made).empty());
+}
+
+TEST_CASE("faces in space: a vertex drawn over its neighbour turns two triangles over") {
+  const TriangleMesh ball = icosphere(3);
+  const MappedMesh source = tests::mapped(ball, SphereMap{ball.positions});
+  TriangleMesh drawn = ball;
+  const Vertex v = ball.triangles(700, 0), over = ball.triangles(700, 1);
+  drawn.positions.row(v) =
+      (ball.position(over) + 0.5 * (ball.position(over) - ball.position(v))).normalized();
+  const MappedMesh made = tests::mapped(drawn, SphereMap{ball.positions});
+  const FacesInSpace found = faces_in_space(source, made);
+  CHECK(found.turned_over == 2);
+  CHECK(found.crossings.pairs > 0);
+  CHECK(found.faces >= found.crossings.faces);
+  CHECK(found.source_pairs == 0);
+  CHECK((found.area_share > 0 && found.area_share < 0.05));
+  CHECK_THAT(warning_of(found, source, made), Contains("2 are turned over"));
+}
+
+TEST_CASE(
+    "faces in space: an L of large triangles comes out inverted, one of small ones does not") {
+  const TriangleMesh large = bracket();
+  const auto on_grid = [](const TriangleMesh& mesh) {
+    const MappedMesh source = mapped(mesh);
+    const Remeshed made = remesh(source, make_grid(parse_grid("ico:3")));
+    FacesInSpace found = faces_in_space(source, made);
+    return std::pair(std::move(found), warning_of(found, source, made));
+  };
+  const auto [found, warning] = on_grid(large);
+  CHECK(found.faces > 0);
+  CHECK(found.crossings.pairs > 0);
+  CHECK(found.turned_over > 0);
+  CHECK_THAT(warning, Contains("of 1280 triangles") && Contains("each flat in four"));
+  const auto [cut, nothing] = on_grid(in_four(in_four(in_four(large))));
+  CHECK(cut.all_well());
+  CHECK(nothing.empty());
+}
+
+TEST_CASE("faces in space: of a surface that crosses itself its pairs are told") {
+  TriangleMesh folded = icosphere(4);
+  for (Vertex v = 0; v < folded.vertex_count(); ++v) {  // the cap at the top comes out below
+    double& z = folded.positions(v, 2);
+    if (z > 0.9) z = -3;
+  }
+  const MappedMesh source = tests::mapped(folded, SphereMap{icosphere(4).positions});
+  const FacesInSpace found = faces_in_space(source, source);
+  CHECK(found.crossings.pairs > 0);
+  CHECK(found.source_pairs == found.crossings.pairs);
+  CHECK(found.turned_over == 0);
+  CHECK_THAT(warning_of(found, source, source), Contains("the mesh itself has"));
+}
+
+}  // namespace sphparam::tests
