@@ -393,8 +393,10 @@ def test_which_side_is_out_is_told_of_any_size(size):
 def test_more_coefficients_than_vertices_are_told():
     mapped = sp.map(V, F)
     with pytest.warns(sp.LossWarning, match="coefficients for .* vertices") as told:
-        mapped.spharm(int(len(V) ** 0.5))
+        found = mapped.spharm(int(len(V) ** 0.5))
     assert len(told) == 1
+    assert f"; degree={found.decided_degree} leaves it out, least_squares=False is the integral" in str(told[0].message)
+    assert mapped.spharm(found.decided_degree).decided_degree == found.decided_degree < found.degree
     mapped.spharm(int(len(V) ** 0.5), least_squares=False)
 
 

@@ -483,6 +483,9 @@ def test_the_radius_as_planetary_science_has_it(tmp_path):
     program("spharm", "a.sph.ply", "--degree", "6", "--shadr", "theirs.sha", cwd=tmp_path)
     assert (tmp_path / "ours.sha").read_bytes() == (tmp_path / "theirs.sha").read_bytes()
     assert float((tmp_path / "ours.sha").read_text().split(",")[0]) == shape.reference_radius
+    shape.save(tmp_path / "ours.json")
+    again = sp.read_harmonics(tmp_path / "ours.json")
+    assert again.centre == shape.centre is not None and again.decided_degree is None and shape.decided_degree == shape.degree
     with pytest.warns(sp.LossWarning, match="longitudes of these harmonics are the map's, not the body's: they are"):
         elsewhere = body.spharm(2, radius=True, centre=(0, 0, 5.5))
     assert elsewhere.centre == (0, 0, 5.5)

@@ -90,6 +90,10 @@ py::dict as_dict(Expansion&& expansion) {
   py::dict dict;
   dict["functions"] = found.functions;
   dict["ellipsoid"] = py::make_tuple(axes.x(), axes.y(), axes.z());
+  dict["centre"] = py::none();
+  if (found.radius_about)
+    dict["centre"] =
+        py::make_tuple(found.radius_about->x(), found.radius_about->y(), found.radius_about->z());
   dict["aligned"] = found.aligned != HarmonicAlignment::None;
   dict["power"] = owning_rows(power_per_degree(coefficients));
   dict["values"] = owning_rows(found.values);
@@ -128,16 +132,19 @@ py::dict expand(const Mapped& mapped, int degree, const std::vector<std::string>
   if (found.alignment) doubts = doubts_about(*found.alignment);
   if (found.fit.quadrature_change.value_or(0) > settled_quadrature)
     doubts.emplace_back("the integral has not settled with the most nodes that there are");
+  const int decided = found.fit.decided_degree.value_or(degree);
+  if (found.fit.decided_degree)
+    doubts.push_back(undecided_line(found) + "; degree=" + std::to_string(decided) +
+                     " leaves it out, least_squares=False is the integral");
   const double rms = found.position_rms(), plain_rms = found.plain_position_rms(),
                diagonal = found.diagonal;
   py::dict dict =
       as_dict(Expansion{std::move(found), mapped.mesh().name(), mapped.mesh().provenance()});
-  dict["centre"] = py::none();
-  if (centre) dict["centre"] = py::make_tuple(centre->x(), centre->y(), centre->z());
   dict["degrees_off"] = centre ? degrees_off(mapped.mesh(), *centre) : 0;
   dict["rms"] = rms;
   dict["plain_rms"] = plain_rms;
   dict["diagonal"] = diagonal;
+  dict["decided_degree"] = decided;
   dict["doubts"] = doubts;
   return dict;
 }

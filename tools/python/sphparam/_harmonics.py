@@ -40,6 +40,8 @@ class Harmonics:
         """RMS distance at the vertices, weighted by solid angle, in units of the mesh; NaN of a file's."""
         self.plain_rms: float = found["plain_rms"]
         """The same with each vertex counted once."""
+        self.decided_degree: Optional[int] = found["decided_degree"]
+        """Up to which degree the vertices decide all coefficients; None of a file's. What they leave open is near the integral."""
         self.diagonal: float = found["diagonal"]
         """Of the bounding box: what to hold ``rms`` against."""
         self.ellipsoid: Tuple[float, float, float] = found["ellipsoid"]
@@ -124,7 +126,7 @@ def read_harmonics(path: Path) -> Harmonics:
     found = _core.read_harmonics(path_of(path))
     for figure in ("rms", "plain_rms", "diagonal"):
         found[figure] = math.nan
-    found["centre"] = None
+    found["decided_degree"] = None
     return Harmonics(found)
 
 

@@ -110,9 +110,9 @@ class MapGrids(MapFacts):
     ) -> Harmonics:
         """The surface as a sum of spherical harmonics up to a degree, 0 to 1000.
 
-        ``values``: names of what vertices carry, expanded too. ``least_squares``: at the vertices;
-        else by quadrature. ``align``: sphere and surface turned onto the axes of the first-order
-        ellipsoid, so that coefficients do not depend on how mesh and map lay; ``"sphere"``: the sphere alone, as SPHARM-PDM has both.
+        ``values``: names of what vertices carry, expanded too. ``least_squares``: at the vertices; else by quadrature, which
+        what vertices leave open stays near: a warning tells up to which degree they decide. ``align``: sphere and surface turned
+        onto the axes of the first-order ellipsoid, so that coefficients do not depend on how mesh and map lay; ``"sphere"``: the sphere alone, as SPHARM-PDM has both.
         ``flip_template``: of the half turns that leave the ellipsoid, that which brings coefficients nearest to these, which are
         aligned (None: by the surface's skewness). ``radius``: the distance from
         ``centre`` too (None: that of a radial map, else the origin), as planetary science has shapes; of a map of
@@ -124,7 +124,6 @@ class MapGrids(MapFacts):
         flips = _flips(flip_template, turned)
         names = [column for name in _names(values, "values") for column in self.values.columns(name)]
         degree = _arrays.whole(degree, "degree", 1 if turned else 0, 1000)
-        self._warn_of_few_vertices(degree, least_squares)
         about = None if centre is None else _arrays.three(centre, "centre")
         if about is not None and not radius:
             raise ValueError("centre: it is that of the radius: radius=True")
@@ -148,12 +147,6 @@ class MapGrids(MapFacts):
             values = self.values if name in self.values else self.face_values
             columns += [name] if name in ("color", "normal", "uv") else values.columns(name)
         return columns
-
-    def _warn_of_few_vertices(self, degree: int, least_squares: bool) -> None:
-        """More coefficients than vertices: the residual at the vertices says nothing then."""
-        count, vertices = (degree + 1) ** 2, len(self.vertices)
-        if least_squares and count > vertices:
-            tell([f"{count} coefficients for {vertices} vertices: what these leave open is as with least_squares=False"])
 
 
 def _names(names: Union[str, Iterable[str]], what: str) -> List[str]:
