@@ -225,6 +225,37 @@ TEST_CASE("inspection_record: a mesh that can be mapped needs nothing") {
 }
 
 TEST_CASE("verification_record: where the rays are, what was proved, what is odd") {
+TEST_CASE("inspection_record: what a closed mesh encloses, as a body of density 1") {
+  // An octahedron with corners a = 1, b = 2, c = 3 from (10, 0, 0): V = 4abc/3, ∫ x² = V a²/10.
+  TriangleMesh mesh = octahedron();
+  for (Eigen::Index v = 0; v < 6; ++v)
+    mesh.positions.row(v) = mesh.positions.row(v).cwiseProduct(Eigen::RowVector3d(1, 2, 3)) +
+                            Eigen::RowVector3d(10, 0, 0);
+  const MeshSource source = source_of(mesh);
+  const Json body = Json::parse(to_json(InspectionRecord{.source = source}))["body"];
+  CHECK(keys_of(body) == "centroid,inertia,principal_moments,principal_axes");
+  const auto check_near = [](const Json& found, const Vector3& wanted) {
+    for (int k = 0; k < 3; ++k)
+      CHECK(found[size_t(k)].get<double>() == Approx(wanted[k]).margin(1e-12));
+  };
+  check_near(body["centroid"], {10, 0, 0});
+  check_near(body["inertia"][0], {8 * 1.3, 0, 0});
+  check_near(body["inertia"][1], {0, 8 * 1.0, 0});
+  check_near(body["inertia"][2], {0, 0, 8 * 0.5});
+  check_near(body["principal_moments"], {4, 8, 10.4});
+  check_near(body["principal_axes"][0], {0, 0, 1});
+  check_near(body["principal_axes"][1], {0, 1, 0});
+  check_near(body["principal_axes"][2], {-1, 0, 0});
+  CHECK_THAT(
+      to_text({.source = source}),
+      Contains("\n  centroid      (10, 0, 0)\n  inertia       4, 8, 10.4 about the centroid, "
+               "at density 1, along (0, 0, 1), (0, 1, 0), (-1, 0, 0)\n"));
+  mesh.triangles.conservativeResize(7, 3);
+  const MeshSource open = source_of(mesh);
+  CHECK(Json::parse(to_json(InspectionRecord{.source = open}))["body"].is_null());
+  CHECK_THAT(to_text({.source = open}), !Contains("centroid"));
+}
+
   const TriangleMesh mesh = icosphere(2);
   VerifiedMap map;
   map.mesh = mesh;

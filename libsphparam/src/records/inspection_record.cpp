@@ -8,6 +8,7 @@
 #include "number_text.h"
 #include "place_text.h"
 #include "records/json_parts.h"
+#include "records/body_record.h"
 #include "sphparam/io/fillers.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/repair_advice.h"
@@ -206,6 +207,10 @@ std::string to_text(const InspectionRecord& record) {
   }
   text += "This mesh cannot be mapped to a sphere as it is.\n";
   return record.repair ? text + repair_advice(*record.repair, source.path, "", record.parts) : text;
+                  {"body", body_json(enclosed_body(record.source))},
 }
 
 }  // namespace sphparam
+  const Vector3 sides = source.inspection.upper - source.inspection.lower;
+  for (const auto& [label, value] : body_lines(enclosed_body(source), sides.maxCoeff()))
+    text += line(label, value);

@@ -1,0 +1,56 @@
+#include "records/body_record.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "number_text.h"
+#include "place_text.h"
+
+namespace sphparam {
+namespace {
+
+constexpr int figure_digits = 6;
+
+bool is_sound(const MeshDefect& defect) {
+  return defect.kind != DefectKind::Empty && defect.kind != DefectKind::IndexOutOfRange &&
+         defect.kind != DefectKind::NonFinitePosition;
+}
+
+std::string list_of(const Vector3& numbers) {
+  return short_number(numbers[0], figure_digits) + ", " + short_number(numbers[1], figure_digits) +
+         ", " + short_number(numbers[2], figure_digits);
+}
+
+std::string direction(const Vector3& axis) { return "(" + place_text(axis, 1) + ")"; }
+
+}  // namespace
+
+std::optional<MassProperties> enclosed_body(const MeshSource& source) {
+  const MeshInspection& mesh = source.inspection;
+  if (mesh.boundary_loops > 0 || !std::ranges::all_of(mesh.defects, is_sound)) return std::nullopt;
+  return mass_properties(source.file.mesh);
+}
+
+Json body_json(const std::optional<MassProperties>& body) {
+  if (!body) return nullptr;
+  Json inertia = Json::array(), axes = Json::array();
+  for (int k = 0; k < 3; ++k) {
+    inertia.push_back(vector_json(body->inertia.row(k).transpose()));
+    axes.push_back(vector_json(body->axes.row(k).transpose()));
+  }
+  return {{"centroid", vector_json(body->centroid)},
+          {"inertia", inertia},
+          {"principal_moments", vector_json(body->moments)},
+          {"principal_axes", axes}};
+}
+
+std::vector<std::pair<std::string, std::string>> body_lines(
+    const std::optional<MassProperties>& body, double length) {
+  if (!body) return {};
+  return {{"centroid", "(" + place_text(body->centroid, length) + ")"},
+          {"inertia", list_of(body->moments) + " about the centroid, at density 1, along " +
+                          direction(body->axes.row(0)) + ", " + direction(body->axes.row(1)) +
+                          ", " + direction(body->axes.row(2))}};
+}
+
+}  // namespace sphparam

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "records/json_parts.h"
+#include "sphparam/mesh/mass_properties.h"
+
+namespace sphparam {
+
+/// What a closed mesh encloses; nothing of an open one, or one whose faces or numbers are none.
+std::optional<MassProperties> enclosed_body(const MeshSource& source);
+
+/// Null where there is none.
+Json body_json(const std::optional<MassProperties>& body);
+
+/// A label and what it says: centroid, moments of inertia and axes. None where there is no body.
+/// `length`: of the mesh, for the digits.
+std::vector<std::pair<std::string, std::string>> body_lines(
+    const std::optional<MassProperties>& body, double length);
+
+}  // namespace sphparam
