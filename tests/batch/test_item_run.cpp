@@ -11,6 +11,8 @@
 #include "batch/item_run.h"
 #include "batch/options_hash.h"
 #include "batch/staging.h"
+#include "sphparam/batch/results.h"
+#include "sphparam/batch/status.h"
 
 /// What is left of an item whose process ends in one way or another.
 namespace sphparam::tests {
@@ -38,6 +40,14 @@ class OneShape {
   ItemSetting setting() const { return {folder_, plan_, write_a_result}; }
   ItemSetting without_room() const { return {folder_, plan_, lacks_room}; }
   ItemSetting with_warnings() const { return {folder_, plan_, warns}; }
+  /// A second step, which finds that a limit is exceeded and tells no error.
+  ItemSetting with_limit() {
+    plan_.steps.push_back({"measure", "{input}", "{id}.ply"});
+    plan_.items[0].options = OptionsHash(plan_).of(plan_.items[0]);
+    return {folder_, plan_, exceeds};
+  }
+  const std::string& folder() const { return folder_; }
+  const BatchPlan& plan() const { return plan_; }
   const BatchItem& item() const { return plan_.items[0]; }
   std::string record() const { return small_file(folder_ + "/results/a/record.json").value_or(""); }
   bool has_failed() const { return fs::exists(folder_ + "/failed/a.json"); }
@@ -61,11 +71,18 @@ class OneShape {
     return write_result(step, setting);
   }
 
+  static int exceed(const BatchStep& step, const BatchStepSetting& setting) {
+    if (step.front() == "map") return write_result(step, setting);
+    std::fputs("RMS 1 is more than 0.5\n", stderr);
+    return 6;
+  }
+
   const std::string folder_ =
       (fs::temp_directory_path() / ("sphparam_item_" + std::to_string(::getpid()))).string();
   const std::function<int(const BatchStep&, const BatchStepSetting&)> write_a_result = write_result;
   const std::function<int(const BatchStep&, const BatchStepSetting&)> lacks_room = find_no_room;
   const std::function<int(const BatchStep&, const BatchStepSetting&)> warns = warn;
+  const std::function<int(const BatchStep&, const BatchStepSetting&)> exceeds = exceed;
   BatchPlan plan_;
 };
 
@@ -103,6 +120,26 @@ TEST_CASE(
   const auto head = read_head(shape.record());
   REQUIRE(head);
   CHECK(head->warnings == std::vector<std::string>{"a.obj: flat", "inside out"});
+}
+
+TEST_CASE("item run: which of its steps failed is told by record, status and table") {
+  OneShape shape;
+  const ItemSetting setting = shape.with_limit();
+  REQUIRE(wait_for_child(start_child([&] { return run_item(setting, shape.item()); })).code ==
+          ItemFailed);
+  const auto stored = record_about(shape.folder(), shape.item());
+  REQUIRE(stored);
+  CHECK(stored->head.step == "2 measure");
+  CHECK(stored->head.reason == "RMS 1 is more than 0.5");
+  const BatchStatus status = batch_status(shape.folder(), shape.plan(), 1);
+  REQUIRE(status.failures.size() == 1);
+  CHECK(status.failures[0].code == 6);
+  CHECK(status.failures[0].step == "2 measure");
+  CHECK(status.failures[0].reason == "step 2, measure: RMS 1 is more than 0.5");
+  CHECK_THAT(to_json(status), Catch::Contains("\"step\": \"2 measure\""));
+  const std::string table = batch_table(shape.folder(), shape.plan(), 1);
+  CHECK_THAT(table, Catch::StartsWith("id,path,outcome,code,step,reason,"));
+  CHECK_THAT(table, Catch::Contains(",failed,6,2 measure,RMS 1 is more than 0.5,1,"));
 }
 
 TEST_CASE("item run: a machine without room is no failure of the item") {

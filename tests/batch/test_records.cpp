@@ -21,6 +21,7 @@ TEST_CASE("record: its head is read back, and nothing behind it is looked at") {
   record.id = "sub \"1\"";
   record.head = {.outcome = BatchOutcome::Certified,
                  .code = 0,
+                 .step = "2 measure",
                  .attempt = 3,
                  .retry = true,
                  .planned = "",
@@ -38,6 +39,7 @@ TEST_CASE("record: its head is read back, and nothing behind it is looked at") {
   const std::string json = to_json(record);
   const BatchRecordHead head = read_head(json.substr(0, json.find("\"path\""))).value();
   CHECK(head.outcome == BatchOutcome::Certified);
+  CHECK(head.step == "2 measure");
   CHECK(head.attempt == 3);
   CHECK(head.retry);
   CHECK(head.input + head.options + head.program == "iop");

@@ -47,8 +47,8 @@ TEST_CASE("table: how many warnings there are stands in a column") {
   BatchRecord record;
   record.head.warnings = {"one", "two"};
   const auto row = row_of(record);
-  CHECK(row[6] == std::pair<std::string, std::string>("repairs", ""));
-  CHECK(row[7] == std::pair<std::string, std::string>("warnings", "2"));
+  CHECK(row[7] == std::pair<std::string, std::string>("repairs", ""));
+  CHECK(row[8] == std::pair<std::string, std::string>("warnings", "2"));
 }
 
 TEST_CASE("table: short lists of real numbers and entries with names have columns, no others") {
@@ -77,7 +77,7 @@ TEST_CASE("table: short lists of real numbers and entries with names have column
                                                              {"bake.functions.x y.power.2", "2"}};
   for (int i = 0; i < 16; ++i)
     wanted.emplace_back("bake.sixteen." + std::to_string(i), std::to_string(i) + ".5");
-  const std::size_t first = 8, last = 6;  // columns before and behind those of reports
+  const std::size_t first = 9, last = 6;  // columns before and behind those of reports
   REQUIRE(row.size() == first + wanted.size() + last);
   CHECK(std::vector(row.begin() + first, row.end() - last) == wanted);
 }

@@ -162,7 +162,10 @@ class ItemRun {
       const int code = run_step(step);
       if (code == interrupted) return end(ItemInterrupted);
       if (code == step_has_no_room) give_up();
-      if (code != 0) return fail(code, "");
+      if (code != 0) {
+        record_.head.step = std::to_string(record_.steps.size()) + " " + step.front();
+        return fail(code, "");
+      }
     }
     return succeed();
   }

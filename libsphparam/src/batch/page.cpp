@@ -62,14 +62,15 @@ void take_figures(const Json& report, Shape& shape) {
     shape.vertices = report["vertices"].get<double>();
 }
 
-Shape shape_of(const std::string& folder, const BatchItem& item) {
+Shape shape_of(const std::string& folder, const BatchPlan& plan, const BatchItem& item) {
   Shape shape;
   const auto stored = record_about(folder, item);
   if (!stored) return shape;
   const Json record = Json::parse(stored->bytes, nullptr, false);
   if (record.is_discarded()) throw ReadError(stored->path, "this is no whole record of a batch");
   shape.outcome = record.value("outcome", "open");
-  shape.reason = without_folders(stored->head.reason, item);
+  shape.reason =
+      words_of_step(stored->head.step, plan) + without_folders(stored->head.reason, item);
   shape.repairs = stored->head.repairs;
   for (const std::string& warning : stored->head.warnings)
     shape.warnings.push_back(without_folders(warning, item));
@@ -93,7 +94,7 @@ std::vector<Shape> shapes_of(const std::string& folder, const BatchPlan& plan, i
   constexpr std::int64_t grain = 16;
   parallel_for(std::ssize(shapes), grain, threads, [&](std::int64_t first, std::int64_t last) {
     for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
-      shapes[i] = shape_of(folder, plan.items[i]);
+      shapes[i] = shape_of(folder, plan, plan.items[i]);
   });
   return shapes;
 }

@@ -101,6 +101,7 @@ class HeadReader : public nlohmann::json_sax<nlohmann::json> {
     if (key_ == "input") head.input = value;
     if (key_ == "options") head.options = value;
     if (key_ == "program") head.program = value;
+    if (key_ == "step") head.step = value;
     if (key_ == "reason") head.reason = value;
     if (key_ == "repairs") head.repairs = value;
     if (key_ == "warnings" && list_ == 1) head.warnings.push_back(value);
@@ -180,6 +181,7 @@ std::string to_json(const BatchRecord& record) {
   Json json = {{"batch_record", 1},
                {"outcome", name_of(head.outcome)},
                {"code", head.code},
+               {"step", head.step},
                {"attempt", head.attempt},
                {"retry", head.retry},
                {"planned", head.planned},
@@ -256,6 +258,12 @@ bool is_wrapped(const std::string& repairs) {
 }
 
 bool is_repaired(const std::string& repairs) { return !repairs.empty() && repairs != wrap_words; }
+
+std::string words_of_step(const std::string& step, const BatchPlan& plan) {
+  if (step.empty() || plan.steps.size() < 2) return "";
+  const std::size_t blank = step.find(' ');
+  return "step " + step.substr(0, blank) + "," + step.substr(blank) + ": ";
+}
 
 std::string without_folders(std::string reason, const BatchItem& item) {
   const std::string name = fs::path(item.path).filename().string();

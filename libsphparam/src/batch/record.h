@@ -29,7 +29,8 @@ struct BatchFile {
 /// What decides whether an item is run: the beginning of its record.
 struct BatchRecordHead {
   BatchOutcome outcome = BatchOutcome::Failed;
-  int code = 0;  // of the step that failed; 128 + N: signal N
+  int code = 0;           // of the step that failed; 128 + N: signal N
+  std::string step = {};  // that failed, and its subcommand: "4 measure"; empty: none of them did
   int attempt = 1;
   bool retry = false;                   // of a failure: to be tried again
   std::string planned;                  // hash of the input that was planned
@@ -83,6 +84,10 @@ std::string failure_path(const std::string& folder, const std::string& id);
 /// Of the repairs of a record: is a surface about the mesh instead of it; was the mesh mended.
 bool is_wrapped(const std::string& repairs);
 bool is_repaired(const std::string& repairs);
+
+/// "step 4, measure: " before what is said of a failed step of several; empty where there is one
+/// step alone, or none of them failed.
+std::string words_of_step(const std::string& step, const BatchPlan& plan);
 
 /// A reason as people read it: the input by its name alone.
 std::string without_folders(std::string reason, const BatchItem& item);

@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <tuple>
 
 #include "batch/alike_reasons.h"
 #include "batch/engines.h"
@@ -45,20 +46,21 @@ std::vector<BatchFailures> grouped(const BatchPlan& plan, const Heads& heads) {
     BatchFailures failures;
     AlikeReasons reasons;
   };
-  std::map<std::pair<int, std::string>, Group> groups;
+  std::map<std::tuple<int, std::string, std::string>, Group> groups;
   for (std::size_t i = 0; i < heads.size(); ++i) {
     if (!heads[i] || !heads[i]->failed()) continue;
     const BatchRecordHead& head = *heads[i];
     const ReasonWording wording = wording_of(head.reason, plan.items[i]);
-    auto& [group, reasons] = groups[{head.code, wording.kind}];
+    auto& [group, reasons] = groups[{head.code, head.step, wording.kind}];
     reasons.add(head.reason, plan.items[i], wording);
     ++group.count;
     group.code = head.code;
+    group.step = head.step;
     if (group.ids.size() < told_ids) group.ids.push_back(plan.items[i].id);
   }
   std::vector<BatchFailures> failures;
   for (auto& [key, group] : groups) {
-    group.failures.reason = group.reasons.text();
+    group.failures.reason = words_of_step(group.failures.step, plan) + group.reasons.text();
     failures.push_back(std::move(group.failures));
   }
   std::ranges::stable_sort(failures, std::ranges::greater{}, &BatchFailures::count);
@@ -182,6 +184,7 @@ std::string to_json(const BatchStatus& status) {
   nlohmann::ordered_json failures = nlohmann::ordered_json::array();
   for (const BatchFailures& group : status.failures)
     failures.push_back({{"code", group.code},
+                        {"step", group.step},
                         {"reason", group.reason},
                         {"count", group.count},
                         {"ids", group.ids}});

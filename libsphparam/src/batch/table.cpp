@@ -88,7 +88,7 @@ Cells figures_of(const Json& record) {
   return cells;
 }
 
-const std::vector<std::string> first_columns = {"id",     "path",    "outcome", "code",
+const std::vector<std::string> first_columns = {"id",     "path",    "outcome", "code",    "step",
                                                 "reason", "attempt", "repairs", "warnings"};
 const std::vector<std::string> last_columns = {"seconds", "cpu_seconds", "peak_bytes",
                                                "ended",   "host",        "sphparam"};

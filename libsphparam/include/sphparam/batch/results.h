@@ -6,9 +6,10 @@
 
 namespace sphparam {
 
-/// One row an item, in the plan's order: id, path, outcome, code, reason, attempt, repairs, how many
-/// warnings, then the columns of the table that it was planned from ("table.NAME" where a column is
-/// called so already), then the figures of the reports of its steps under SUBCOMMAND.KEY, as
+/// One row an item, in the plan's order: id, path, outcome, code, step, reason, attempt, repairs,
+/// how many warnings, then the columns of the table that it was planned from ("table.NAME" where a
+/// column is called so already), then the figures of the reports of its steps under SUBCOMMAND.KEY,
+/// as
 /// `--json` names them (SUBCOMMAND2 of the second such step), then what it took. Of lists there are
 /// up to 16 real numbers, under KEY.0, KEY.1 …, and what has a name or is an image of a map, under
 /// KEY.NAME. RFC 4180 but for the separator, UTF-8. Throws: ReadError. Cost: reads all records.

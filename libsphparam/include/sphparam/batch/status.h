@@ -9,11 +9,14 @@
 
 namespace sphparam {
 
-/// Failures that are alike: the same exit code and, but for names and numbers, the same message.
+/// Failures that are alike: the same exit code, step and, but for names and numbers, the same
+/// message.
 struct BatchFailures {
-  int code = 0;  // 128 + N: signal N
-  /// Of several that are not equal with NAME for a shape's name and numbers that differ from the
-  /// least to the greatest.
+  int code = 0;      // 128 + N: signal N
+  std::string step;  // "4 measure", the same for all; empty: it was none of the steps
+  /// With the step before it, where there are several: "step 4, measure: …". Of several failures
+  /// that are not equal with NAME for a shape's name and numbers that differ from the least to the
+  /// greatest.
   std::string reason;
   std::size_t count = 0;
   std::vector<std::string> ids;  // the first ten
