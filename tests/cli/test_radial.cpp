@@ -99,6 +99,42 @@ TEST_CASE("map: --method radial --keep-folded writes the directions as they are,
   CHECK(sphparam_program({"verify", map}).code == 5);
 }
 
+TEST_CASE("map, bake: a centre outside of the surface is told, --centre centroid is inside") {
+  const Folder folder;
+  const std::string mesh = folder / "body.obj", map = folder / "a.sph.ply";
+  write_bytes(mesh, body({5, 6, 7}));
+  const auto told = [&](std::vector<std::string> words) {
+    const Ended ended = sphparam_program(words);
+    INFO(ended.err);
+    CHECK(ended.code == 0);
+    return ended.err;
+  };
+  const std::string outside =
+      "the centre 0,0,0 lies outside of the surface: --centre centroid is 5,6,7, that of what it "
+      "encloses";
+  const std::vector<std::string> align = {"map", mesh, "-o", map, "--align", "body"};
+  CHECK_THAT(told(align), Contains("warning: " + mesh + ": " + outside));
+  std::vector<std::string> inside = align;
+  inside.insert(inside.end(), {"--centre", "centroid"});
+  CHECK_THAT(told(inside), !Contains("lies outside"));
+  CHECK_THAT(told({"map", mesh, "-o", map, "--method", "radial", "--centre", "centroid"}),
+             Contains("star-shaped about (5, 6, 7)") && !Contains("lies outside"));
+  REQUIRE(sphparam_program({"map", mesh, "-o", map}).code == 0);
+  const auto bake = [&](const std::string& field, std::vector<std::string> more) {
+    std::vector<std::string> words = {"bake",   map,  "--map", field,
+                                      "--size", "32", "-o",    folder / "a.tif"};
+    words.insert(words.end(), more.begin(), more.end());
+    return told(words);
+  };
+  for (const char* field : {"radius", "slope", "lon"}) {
+    CHECK_THAT(bake(field, {}), Contains("warning: " + outside));
+    CHECK_THAT(bake(field, {"--centre", "centroid"}), !Contains("lies outside"));
+  }
+  CHECK_THAT(bake("height", {}), Contains("the origin, from which it is measured, lies outside of "
+                                          "the surface: --map radius --centre centroid is "));
+  CHECK_THAT(bake("position", {}), !Contains("lies outside"));
+}
+
 TEST_CASE("map: what radial, --align and --centre may not be said with ends with 2") {
   const Folder folder;
   write_bytes(folder / "pins.txt", "5 0.5 1.0\n");

@@ -94,14 +94,10 @@ void declare_body(Declaration& command, BakeArguments& arguments) {
               "Of the mesh's coordinates (default: m)")
       .flag("--west", fields.positive_west, "Longitudes grow to the west")
       .parsed(
-          "--centre", "X,Y,Z",
-          [&fields](const std::string& text) {
-            const auto numbers = three_numbers(text);
-            if (numbers) fields.centre = Vector3(numbers->data());
-            return numbers.has_value();
-          },
-          "expected three numbers, as in 0,0,1.5, not ",
-          "The body's centre, in the mesh's coordinates")
+          "--centre", centre_pattern,
+          [&arguments](const std::string& text) { return read_centre(text, arguments.centre); },
+          wanted_centre,
+          "The body's centre, in the mesh's coordinates, or that of what it encloses")
       .preset("that of a radial map, else 0,0,0");
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "arguments/centre_argument.h"
 #include "arguments/repair_arguments.h"
 #include "console/exit_codes.h"
 #include "sphparam/bake/bake.h"
@@ -22,6 +23,7 @@ struct BakeArguments : CommonArguments {
   bool all_components = false;                    // of the files that `map` made of parts
   RepairArguments repair;                         // of the mesh
   double crease = -1;                             // degrees; below 0: none
+  CentreArgument centre;                          // of the body
   double unit = 1;                                // metres that the mesh's unit has
   std::function<bool(const std::string&)> given;  // was this option on the command line?
   BakeSettings settings;  // what has an option; names, target, progress are the command's

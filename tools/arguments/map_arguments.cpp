@@ -252,14 +252,11 @@ void declare_frame(Declaration& command, MapArguments& arguments) {
       .text("--align", arguments.align, "body|FILE",
             "Turn the map to the directions from the centre, or to another map of the mesh")
       .parsed(
-          "--centre", "X,Y,Z",
-          [&centre = arguments.options.centre](const std::string& text) {
-            const auto numbers = three_numbers(text);
-            if (numbers) centre = Vector3(numbers->data());
-            return numbers.has_value();
-          },
-          "expected three numbers, as in 0,0,1.5, not ",
-          "The centre of --method radial and --align body, in the mesh's coordinates")
+          "--centre", centre_pattern,
+          [&arguments](const std::string& text) { return read_centre(text, arguments.centre); },
+          wanted_centre,
+          "The centre of --method radial and --align body, in the mesh's coordinates, or that of "
+          "what it encloses")
       .preset("0,0,0");
 }
 

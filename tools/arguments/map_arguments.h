@@ -3,6 +3,7 @@
 #include <functional>
 #include <string>
 
+#include "arguments/centre_argument.h"
 #include "arguments/declaration.h"
 #include "arguments/naming.h"
 #include "arguments/repair_arguments.h"
@@ -32,7 +33,9 @@ struct MapArguments : CommonArguments {
   std::string component;  // which it is of which mesh, for its file; empty: the mesh is whole
   bool keep_folded = false;
   AnyMethod method = Method::Progressive;
-  // Complete but for `progress` and `pins`, once settled. Vertices have their numbers in the file.
+  CentreArgument centre;
+  // Complete but for `progress`, `pins` and `centre`, once settled. Vertices have their numbers in
+  // the file.
   ParameterizeOptions options;
   std::function<bool(const std::string&)> given;  // was this option on the command line?
 };

@@ -88,6 +88,7 @@ MappedMesh read_mesh(const BakeArguments& arguments, Session& session) {
 BakeSettings settings_of(const BakeArguments& arguments, const MappedMesh& source,
                          Session& session) {
   BakeSettings settings = arguments.settings;
+  settings.fields.centre = arguments.centre.of(source.mesh());
   settings.source_name = display_name(arguments.from.empty() ? arguments.input : arguments.from);
   if (!arguments.from.empty()) settings.from = read_from(arguments, session);
   if (!arguments.target.empty()) settings.target = read_target(source, arguments, session);

@@ -13,6 +13,7 @@
 #include "io/inspected_source.h"
 #include "reports/map_wording.h"
 #include "reports/told_losses.h"
+#include "sphere/body_centre.h"
 #include "sphere/distinct_directions.h"
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/io/fillers.h"
@@ -75,6 +76,9 @@ void settle_directions(const MapArguments& arguments, const MeshSource& source,
                        ParameterizeOptions& options, Session& session) try {
   const bool to_body = arguments.align == "body";
   if (to_body || options.method == Method::Radial) {
+    if (const auto centre = arguments.centre.of(source.file.mesh)) options.centre = *centre;
+    if (std::string line = line_of_outside(source.file.mesh, options.centre); !line.empty())
+      session.warn({display_name(source.path) + ": " + line});
     SphereMap directions = body_directions(source.file, options.centre);
     if (to_body) options.align_to = std::move(directions);
   } else if (!arguments.align.empty()) {

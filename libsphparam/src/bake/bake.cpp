@@ -4,6 +4,7 @@
 #include "sphparam/bake/bake.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <stdexcept>
 
@@ -21,6 +22,7 @@
 #include "io/attributes/one_material.h"
 #include "mesh/box.h"
 #include "number_text.h"
+#include "sphere/body_centre.h"
 #include "sphparam/io/planetocentric.h"
 #include "sphparam/version.h"
 
@@ -91,6 +93,25 @@ std::string turning_line(const MappedMesh& source) {
                                : "";
 }
 
+constexpr std::array body_fields = {"lon", "lat", "lonlat", "radius", "slope", "elevation"};
+
+/// Bodies are seen from inside; coordinates of other things begin anywhere.
+std::string centre_line(const MappedMesh& source, const std::vector<BakeRequest>& images,
+                        const BakeSettings& settings) {
+  const auto shown = [&](const char* field) {
+    return std::ranges::count(images, field, &BakeRequest::field) > 0;
+  };
+  const TriangleMesh& mesh = source.mesh();
+  if (std::ranges::any_of(body_fields, shown))
+    return line_of_outside(
+        mesh, body_centre(planetocentric(source.provenance()), settings.fields.centre));
+  const bool radial = settings.fields.height_radial || !settings.target;
+  const bool shows_height = shown("height:radial") || (radial && shown("height"));
+  if (!shows_height || winds_about(mesh, Vector3::Zero())) return "";
+  return "height: the origin, from which it is measured, lies outside of the surface: --map radius "
+         "--centre centroid is the distance from the middle of what it encloses";
+}
+
 bool needs_textures(const std::string& field) { return field == "basecolor"; }
 
 ImageTexts texts_of_all(const MappedMesh& source, const BakeSettings& settings) {
@@ -142,6 +163,7 @@ BakeReport bake(const MappedMesh& source, const std::vector<BakeRequest>& images
   BakeReport report{
       .images = {}, .target_distance = chosen.distance, .warnings = std::move(chosen.warnings)};
   if (!settings.from) add_line(report, turning_line(source));
+  if (!settings.from) add_line(report, centre_line(source, images, settings));
   const bool with_textures =
       std::ranges::any_of(images, [](const auto& image) { return needs_textures(image.field); });
   BakeScene scene = scene_for(source, std::move(chosen.target), with_textures, settings);

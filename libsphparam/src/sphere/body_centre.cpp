@@ -1,0 +1,66 @@
+#include "sphere/body_centre.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "mesh/box.h"
+#include "mesh/flat_face.h"
+#include "number_text.h"
+#include "sphere/solid_angle.h"
+
+namespace sphparam {
+namespace {
+
+/// The vertices as they are seen from a point, at a size whose cubes doubles have.
+Points seen_from(const TriangleMesh& mesh, const Vector3& point) {
+  const double side = longest_side(mesh), size = side > 0 ? side : 1;
+  return (mesh.positions / size).rowwise() - (point / size).transpose();
+}
+
+std::string typed(const Vector3& point) {
+  constexpr int digits = 6;
+  return short_number(point.x(), digits) + "," + short_number(point.y(), digits) + "," +
+         short_number(point.z(), digits);
+}
+
+}  // namespace
+
+Vector3 enclosed_centroid(const TriangleMesh& mesh) {
+  constexpr double next_to_nothing = 1e-9;
+  const Vector3 lower = box_of(mesh.positions).lower;
+  const double side = longest_side(mesh), size = side > 0 ? side : 1;
+  const Vector3 mean = seen_from(mesh, lower).colwise().mean().transpose() * size + lower;
+  if (!(std::abs(enclosed(mesh)) > next_to_nothing)) return mean;
+  const Points corners = seen_from(mesh, mean);
+  double volume = 0;
+  Vector3 moment = Vector3::Zero();
+  for (Face f = 0; f < mesh.face_count(); ++f) {
+    const Vector3 a = corners.row(mesh.triangles(f, 0)), b = corners.row(mesh.triangles(f, 1)),
+                  c = corners.row(mesh.triangles(f, 2));
+    const double sixfold = a.dot(b.cross(c));
+    volume += sixfold;
+    moment += sixfold / 4 * (a + b + c);
+  }
+  return mean + moment / volume * size;
+}
+
+bool winds_about(const TriangleMesh& mesh, const Vector3& point) {
+  const Points places = seen_from(mesh, point);
+  const VectorX distances = places.rowwise().norm();
+  if (!(distances.minCoeff() > 0)) return true;
+  const Points rays = places.array().colwise() / distances.array();
+  double sum = 0;
+  for (Face f = 0; f < mesh.face_count(); ++f)
+    sum += solid_angle(rays.row(mesh.triangles(f, 0)), rays.row(mesh.triangles(f, 1)),
+                       rays.row(mesh.triangles(f, 2)));
+  return std::abs(sum) > 2 * std::numbers::pi;  // half a turn, of what is a whole one or none
+}
+
+std::string line_of_outside(const TriangleMesh& mesh, const Vector3& centre) {
+  if (winds_about(mesh, centre)) return "";
+  return "the centre " + typed(centre) + " lies outside of the surface: --centre centroid is " +
+         typed(enclosed_centroid(mesh)) + ", that of what it encloses";
+}
+
+}  // namespace sphparam

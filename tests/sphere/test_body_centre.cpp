@@ -1,0 +1,60 @@
+#include <catch2/catch.hpp>
+
+#include "sphere/body_centre.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+
+namespace {
+
+TriangleMesh corner_of_cube() {
+  TriangleMesh mesh;
+  mesh.positions.resize(4, 3);
+  mesh.positions << 0, 0, 0, 4, 0, 0, 0, 4, 0, 0, 0, 4;
+  mesh.triangles.resize(4, 3);
+  mesh.triangles << 0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2;
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("body centre: the centroid of what is enclosed, wherever it lies and however it is cut") {
+  TriangleMesh mesh = corner_of_cube();
+  CHECK((enclosed_centroid(mesh) - Vector3(1, 1, 1)).norm() < 1e-14);
+  mesh.triangles.col(0).swap(mesh.triangles.col(1));  // inside out
+  CHECK((enclosed_centroid(mesh) - Vector3(1, 1, 1)).norm() < 1e-14);
+  mesh.positions.rowwise() += Eigen::RowVector3d(1e6, -2e6, 5);
+  CHECK((enclosed_centroid(mesh) - Vector3(1e6 + 1, -2e6 + 1, 6)).norm() < 1e-8);
+  mesh.positions *= 1e120;
+  CHECK((enclosed_centroid(mesh) / 1e120 - Vector3(1e6 + 1, -2e6 + 1, 6)).norm() < 1e-8);
+}
+
+TEST_CASE("body centre: of a sheet with two sides the mean of its vertices") {
+  TriangleMesh sheet;
+  sheet.positions.resize(3, 3);
+  sheet.positions << 0, 0, 1, 3, 0, 1, 0, 6, 1;
+  sheet.triangles.resize(2, 3);
+  sheet.triangles << 0, 1, 2, 2, 1, 0;
+  CHECK(enclosed_centroid(sheet) == Vector3(1, 2, 1));
+}
+
+TEST_CASE("body centre: a surface winds about what is in it, whichever way it looks") {
+  TriangleMesh mesh = corner_of_cube();
+  for (const bool inverted : {false, true}) {
+    if (inverted) mesh.triangles.col(0).swap(mesh.triangles.col(1));
+    CHECK(winds_about(mesh, {1, 1, 1}));
+    CHECK(winds_about(mesh, {0.01, 0.01, 0.01}));
+    CHECK_FALSE(winds_about(mesh, {-0.01, 1, 1}));
+    CHECK_FALSE(winds_about(mesh, {2, 2, 2}));  // in the box
+    CHECK_FALSE(winds_about(mesh, {1e9, 0, 0}));
+    CHECK(winds_about(mesh, {0, 4, 0}));  // a vertex
+  }
+}
+
+TEST_CASE("body centre: one outside is told with the centroid, one inside is not") {
+  CHECK(line_of_outside(corner_of_cube(), {1, 1, 0.5}).empty());
+  CHECK(line_of_outside(corner_of_cube(), {2, 2.5, 0}) ==
+        "the centre 2,2.5,0 lies outside of the surface: --centre centroid is 1,1,1, that of what "
+        "it encloses");
+}
