@@ -78,7 +78,7 @@ TEST_CASE("mass_properties: of a tetrahedron at the origin") {
   check_near(body.inertia, inertia, 1e-16);
 }
 
-TEST_CASE("mass_properties: a sheet has none; any size has") {
+TEST_CASE("mass_properties: a sheet has none, a body of any size has") {
   TriangleMesh sheet = icosphere(2);
   sheet.positions.col(2).setZero();
   CHECK_FALSE(mass_properties(sheet));

@@ -61,7 +61,7 @@ std::optional<MassProperties> mass_properties(const TriangleMesh& mesh) {
   const Vector3 rest = moments.first / moments.volume;
   const Eigen::Matrix3d second = moments.second - moments.volume * rest * rest.transpose();
   body.volume = moments.volume * size * size * size;
-  const double unit = (moments.volume < 0 ? -1 : 1) * std::pow(size, 5);
+  const double unit = (moments.volume < 0 ? -1 : 1) * size * size * size * size * size;
   body.inertia = unit * (second.trace() * Eigen::Matrix3d::Identity() - second);
   find_axes(body);
   return body;
