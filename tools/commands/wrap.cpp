@@ -101,6 +101,9 @@ int run_wrap(WrapArguments& arguments) {
               add_mesh(session.files, arguments.output, file, {.origin = arguments.input}),
               session.console);
   WrapRecord record = {arguments.input, soup, wrap, {{"mesh", arguments.output}}};
+  session.console.progress("crossings", 0);
+  record.crossings = crossings_of(wrap, session.threads());
+  session.warn(warnings_of(record));
   record.seconds = session.stopwatch.seconds();
   session.add_report([&] { return to_json(record); });
   session.publish();

@@ -2,7 +2,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "mesh/box.h"
 #include "number_text.h"
+#include "place_text.h"
 #include "records/json_parts.h"
 #include "sphparam/version.h"
 
@@ -55,6 +57,21 @@ std::string left_behind(const MeshFile& soup) {
 
 }  // namespace
 
+std::optional<SelfCrossings> crossings_of(const Wrap& wrap, int threads) {
+  if (wrap.lattice_faces == wrap.mesh.face_count() && wrap.gap >= wrap.distance) return {};
+  return find_self_crossings(wrap.mesh, {.most_looks = usual_looks, .threads = threads});
+}
+
+std::vector<std::string> warnings_of(const WrapRecord& record) {
+  if (!record.crossings || record.crossings->pairs == 0) return {};
+  const SelfCrossings& found = *record.crossings;
+  return {std::to_string(found.faces) + " of " +
+          counted(record.wrap.mesh.face_count(), "triangle", "triangles") +
+          " of the wrap cross others (" + counted(found.pairs, "pair", "pairs") +
+          ", the first at (" + place_text(found.place, longest_side(record.wrap.mesh)) +
+          ")): with all triangles of the lattice (--faces 0) and no --gap none do"};
+}
+
 std::string to_json(const WrapRecord& record) {
   const Wrap& wrap = record.wrap;
   const OneSidedDistance& off = wrap.apart.forth;
@@ -90,6 +107,8 @@ std::string to_json(const WrapRecord& record) {
                     {"max_bound", off.max_bound},
                     {"farthest", vector_json(off.farthest)}}},
                   {"soup_to_wrap_max", wrap.apart.back.max},
+                  {"crossings", record.crossings ? crossings_json(*record.crossings) : Json()},
+                  {"warnings", warnings_of(record)},
                   {"outputs", pairs_json(record.outputs)},
                   {"seconds", record.seconds}});
 }

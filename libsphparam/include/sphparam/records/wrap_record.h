@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "sphparam/io/mesh_file.h"
+#include "sphparam/mesh/self_crossings.h"
 #include "sphparam/wrap/wrap.h"
 
 namespace sphparam {
@@ -16,10 +18,18 @@ struct WrapRecord {
   const Wrap& wrap;
   std::vector<std::pair<std::string, std::string>> outputs = {};  // what it is, where it is
   double seconds = 0;
+  std::optional<SelfCrossings> crossings = {};  // of the wrap with itself; nothing: none by method
 };
+
+/// Those of a wrap whose triangles got fewer, or that was drawn in; nothing of others, which the
+/// lattice keeps from crossing. Cost: as `find_self_crossings`.
+std::optional<SelfCrossings> crossings_of(const Wrap& wrap, int threads = 0);
 
 /// As `sphparam wrap --json` tells it.
 std::string to_json(const WrapRecord& record);
+
+/// What may be wrong with it, a line each: triangles that cross.
+std::vector<std::string> warnings_of(const WrapRecord& record);
 
 /// For people, a line each: what stood in the way of one ball and what became of it, what lies
 /// outside, how far the wrap is from the soup, what the soup carried and the wrap does not.
