@@ -306,9 +306,10 @@ TEST_CASE("remake asset: a channel whose image cannot be read is told, the other
   PendingFiles files;
   const LeaksOfOthers broken_png;
   const RemadeAsset made = remake_asset(asset, folder.path.string(), options, files);
-  REQUIRE(made.warnings.size() == 2);
-  CHECK_THAT(made.warnings[0], Catch::StartsWith("not carried: glow.ktx2 of material paint: "));
-  CHECK_THAT(made.warnings[1],
+  CHECK(made.warnings.empty());
+  REQUIRE(made.losses.size() == 2);
+  CHECK_THAT(made.losses[0], Catch::StartsWith("not carried: glow.ktx2 of material paint: "));
+  CHECK_THAT(made.losses[1],
              Catch::StartsWith("not carried: half.png of material paint: broken: "));
   // Normals are the mesh's own, and without its image the light is dark.
   CHECK(made.baked.images.size() == 2);
@@ -328,7 +329,7 @@ TEST_CASE("remake asset: of images of one name each is judged by itself") {
   options.page = false;
   PendingFiles files;
   const RemadeAsset made = remake_asset(asset, folder.path.string(), options, files);
-  CHECK(made.warnings ==
+  CHECK(made.losses ==
         std::vector<std::string>{"not carried: tex.png of material paint: it is moved too far",
                                  "not carried: tex.png of material paint: its format is not read"});
   files.publish();
@@ -345,7 +346,7 @@ TEST_CASE("remake asset: an image that is left out needs no channels beside base
   RemakeOptions options{.whole = coarse(), .width = 64};
   options.page = false;
   PendingFiles files;
-  CHECK(remake_asset(asset, folder.path.string(), options, files).warnings.size() == 1);
+  CHECK(remake_asset(asset, folder.path.string(), options, files).losses.size() == 1);
 }
 
 TEST_CASE("remake asset: images without texture coordinates are told, factors are kept") {
@@ -358,7 +359,7 @@ TEST_CASE("remake asset: images without texture coordinates are told, factors ar
   options.page = false;
   PendingFiles files;
   const RemadeAsset made = remake_asset(asset, folder.path.string(), options, files);
-  CHECK(made.warnings ==
+  CHECK(made.losses ==
         std::vector<std::string>{"not carried: skin.png of material paint: the mesh has no "
                                  "texture coordinates"});
   files.publish();
@@ -384,7 +385,7 @@ TEST_CASE("remake asset: an image on second texture coordinates is carried, not 
   options.page = false;
   PendingFiles files;
   const RemadeAsset made = remake_asset(asset, folder.path.string(), options, files);
-  CHECK(std::ranges::count(made.warnings,
+  CHECK(std::ranges::count(made.losses,
                            "not carried: skin.png of material paint: the mesh has "
                            "no texture coordinates") == 1);
   files.publish();
@@ -455,6 +456,49 @@ TEST_CASE("remake asset: which part has how much of the texels is told, one that
   CHECK(told["count"] == 2);
   CHECK(told["largest"][1]["material"] == "core");
   CHECK(told["largest"][1]["texels"] == 0);
+}
+
+TEST_CASE("remake asset: vertices of a wrap have the numbers of the asset's nearest points") {
+  const Folder folder;
+  MeshSource asset = source_of(two_balls(), "two.ply");
+  MeshFile& file = asset.file;
+  const auto count = static_cast<size_t>(file.mesh.vertex_count());
+  Property height{"height", ScalarType::Float64, {}}, part{"part", ScalarType::Int32, {}};
+  for (const double z : file.mesh.positions.col(2)) height.values.push_back(z);
+  for (size_t v = 0; v < count; ++v) part.values.push_back(2 * v < count ? 1 : 2);
+  file.set_vertex_property(height);
+  file.set_vertex_property(part);
+  file.set_vertex_property({"source_vertex", ScalarType::Int32, part.values});
+  file.set_face_property({"age", ScalarType::Float64,
+                          std::vector<double>(static_cast<size_t>(file.mesh.face_count()), 3)});
+  file.comments = {"gifti label 1 1 0 0 1 red"};
+  RemakeOptions options{.whole = coarse(), .width = 32};
+  options.page = false;
+  PendingFiles files;
+  const RemadeAsset made = remake_asset(asset, folder.path.string(), options, files);
+  REQUIRE(made.whole.by == WholeBy::Wrap);
+  CHECK(made.whole.done.back() ==
+        "its vertices have height and part of the asset's nearest points");
+  const MeshFile& wrap = made.whole.mapped.file();
+  REQUIRE(wrap.find_vertex_property("height"));
+  REQUIRE(wrap.find_vertex_property("part"));
+  CHECK_FALSE(wrap.find_vertex_property("source_vertex"));
+  CHECK(std::ranges::count(wrap.comments, "gifti label 1 1 0 0 1 red") == 1);
+  const auto& heights = wrap.find_vertex_property("height")->values;
+  const auto& parts = wrap.find_vertex_property("part")->values;
+  for (Vertex v = 0; v < wrap.mesh.vertex_count(); ++v) {
+    const Vector3 at = wrap.mesh.position(v);
+    REQUIRE(std::abs(heights[static_cast<size_t>(v)] - at.z()) < 0.2);  // a voxel away or two
+    if (std::abs(at.x() - 0.5) > 0.2)
+      REQUIRE(parts[static_cast<size_t>(v)] == (at.x() < 0.5 ? 1 : 2));
+  }
+  const std::string loss = "not carried: age of faces: a wrap has faces of its own";
+  const std::string not_in_glb =
+      "not carried: height and part of vertices, by the .glb: two.sph.ply has that";
+  CHECK(made.losses == std::vector<std::string>{loss, not_in_glb});
+  const auto told = nlohmann::json::parse(to_json(asset, made));
+  CHECK(told["losses"] == nlohmann::json::array({loss, not_in_glb}));
+  CHECK(told["warnings"].dump().find(loss) == std::string::npos);
 }
 
 TEST_CASE("remake asset: a window does not make all of it glass, which is told with its share") {

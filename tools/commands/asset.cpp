@@ -113,6 +113,7 @@ RemadeAsset remade(const MeshSource& asset, const std::string& folder,
 void warn_of(const RemadeAsset& made, const AssetArguments& arguments, const std::string& folder,
              Session& session) {
   session.warn(made.warnings);
+  session.warn(made.losses);
   if (made.whole.by != WholeBy::Wrap && arguments.options.whole.faces != WholeOptions{}.faces) {
     const fs::path map = fs::path(folder) / (stem_or(arguments.input, "mesh") + ".sph.ply");
     session.warn({"--faces is of wraps only, and this is none: it has all its " +

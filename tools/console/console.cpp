@@ -10,6 +10,7 @@
 #include <cstdlib>
 
 #include "console/interruption.h"
+#include "sphparam/io/losses.h"
 
 namespace sphparam::cli {
 
@@ -52,7 +53,7 @@ void Console::error(const std::string& text) {
 }
 
 void Console::warning(const std::string& text) {
-  so_far_.warnings.push_back(text);
+  (losses_among({text}).empty() ? so_far_.warnings : so_far_.losses).push_back(text);
   if (verbosity_ == Verbosity::Quiet) return;
   clear_progress();
   print_line("sphparam: " + coloured("33", "warning:") + " " + text);

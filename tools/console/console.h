@@ -27,7 +27,8 @@ class Console {
   void loss(const std::string& text);     // what an output does not carry: as `say`
   void note(const std::string& text);     // what is odd and harmless: as `detail`
 
-  /// All warnings, notes and losses so far, shown or not.
+  /// All warnings, notes and losses so far, shown or not. A warning that something is not carried
+  /// is a loss.
   const Told& told() const { return so_far_; }
 
   /// Shows how far a stage is. Returns false once a signal asked the program to stop, as the

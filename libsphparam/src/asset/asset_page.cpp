@@ -158,6 +158,7 @@ class AssetPage {
     if (remade_.baked.projection)
       lines.push_back(line_of(*remade_.baked.projection, {.source_name = "the asset"}));
     lines.insert(lines.end(), remade_.warnings.begin(), remade_.warnings.end());
+    lines.insert(lines.end(), remade_.losses.begin(), remade_.losses.end());
     const std::vector<std::string> losses = losses_among(asset_.file.notes);
     lines.insert(lines.end(), losses.begin(), losses.end());
     if (lines.empty()) return;

@@ -52,6 +52,13 @@ Json parts_json(const std::vector<PartTexels>& parts) {
   return {{"count", parts.size()}, {"largest", largest}};
 }
 
+/// Of reading, and of what was made.
+std::vector<std::string> all_losses(const MeshSource& asset, const RemadeAsset& remade) {
+  std::vector<std::string> losses = losses_among(asset.file.notes);
+  losses.insert(losses.end(), remade.losses.begin(), remade.losses.end());
+  return losses;
+}
+
 Json stages(const std::vector<std::pair<std::string, double>>& seconds) {
   Json all = Json::object();
   for (const auto& [stage, time] : seconds) all[stage] = time;
@@ -106,7 +113,7 @@ std::string to_json(const MeshSource& asset, const RemadeAsset& remade) {
        {"from", projection_json(remade.baked.projection)},
        {"folds_as_stored", remade.chart.stored.folded.size()},
        {"warnings", remade.warnings},
-       {"losses", losses_among(asset.file.notes)},
+       {"losses", all_losses(asset, remade)},
        {"files", files},
        {"seconds", stages(remade.seconds)}});
 }

@@ -10,12 +10,14 @@
 #include <string_view>
 
 #include "asset/asset_page.h"
+#include "asset/nearest_numbers.h"
 #include "asset/part_texels.h"
 #include "asset/soup.h"
 #include "io/attributes/appearance.h"
 #include "io/attributes/left_out_image.h"
 #include "io/attributes/material_comments.h"
 #include "io/attributes/one_material.h"
+#include "io/attributes/remarks.h"
 #include "mesh/box.h"
 #include "option_domain.h"
 #include "rays/flat_normal.h"
@@ -50,6 +52,14 @@ std::string advice_for_assets(std::string warning) {
   return warning;
 }
 
+/// Beside the .glb lies a .ply.
+std::string advice_for_numbers(const std::string& loss, const std::string& name) {
+  constexpr std::string_view of_glb = ": .ply has room for that";
+  if (losses_among({loss}).empty() || !loss.ends_with(of_glb)) return loss;
+  return loss.substr(0, loss.size() - of_glb.size()) + ", by the .glb: " + name +
+         ".sph.ply has that";
+}
+
 /// What stages say of one mesh, each with what it means to them: "the mesh is inside out: …".
 bool say_the_same(const std::string& one, const std::string& other) {
   const std::size_t end = one.find(": ");
@@ -67,11 +77,14 @@ class Remaker {
         options_(options),
         files_(files),
         stem_((std::filesystem::path(folder) / name()).string()),
-        remade_{.whole = whole_surface(asset, whole_options(asset, options)), .baked = {}} {}
+        remade_{.whole = with_nearest_numbers(whole_surface(asset, whole_options(asset, options)),
+                                              asset, options.whole.threads),
+                .baked = {}} {}
 
   /// `warnings`: what is known before.
   RemadeAsset remake(const std::vector<std::string>& warnings) {
     append(warnings);
+    tell_numbers_of_faces();
     lap("surface");
     bake_channels();
     lap("images");
@@ -133,6 +146,15 @@ class Remaker {
     append(remade_.baked.warnings);
     tell_other_occlusion();
     for (const BakeRequest& request : requests) remade_.files.emplace_back(request.path, 0);
+  }
+
+  /// Which vertices of a wrap get from the asset's nearest points, and its faces do not.
+  void tell_numbers_of_faces() {
+    if (remade_.whole.by != WholeBy::Wrap) return;
+    std::vector<std::string> losses;
+    for (const std::string& words : numbers_not_shown(asset_.file))
+      if (words.ends_with(" of faces")) add_loss(losses, words + ": a wrap has faces of its own");
+    append(losses);
   }
 
   /// The .glb shows one occlusion.
@@ -200,9 +222,11 @@ class Remaker {
   /// Each once: stages tell the same of one mesh.
   void append(const std::vector<std::string>& warnings) {
     for (const std::string& warning : warnings) {
-      const std::string line = advice_for_assets(warning);
+      const std::string line = advice_for_numbers(advice_for_assets(warning), name());
       const auto is_said = [&](const std::string& said) { return say_the_same(said, line); };
-      if (std::ranges::none_of(remade_.warnings, is_said)) remade_.warnings.push_back(line);
+      std::vector<std::string>& told =
+          losses_among({line}).empty() ? remade_.warnings : remade_.losses;
+      if (std::ranges::none_of(told, is_said)) told.push_back(line);
     }
   }
 

@@ -130,7 +130,9 @@ py::dict as_dict(const Made& made) {
   dict["projection"] = projection_of(remade.baked.projection);
   dict["files"] = files;
   dict["warnings"] = as_texts(remade.warnings);
-  dict["losses"] = as_texts(losses_among(made.asset.notes));
+  std::vector<std::string> losses = losses_among(made.asset.notes);
+  losses.insert(losses.end(), remade.losses.begin(), remade.losses.end());
+  dict["losses"] = as_texts(losses);
   dict["seconds"] = seconds;
   return dict;
 }

@@ -43,6 +43,8 @@ struct RemadeAsset {
   std::vector<TextureFigures> textures = {};  // what became of these
   std::vector<PartTexels> parts = {};         // of what was baked, that with most texels first
   std::vector<std::string> warnings = {};
+  std::vector<std::string> losses = {};  // what its file had and what is made has not, or the .glb
+                                         // alone; as `add_loss` words it
   std::vector<std::string> remarks = {};                     // on images of one colour
   bool viewer_is_missing = false;                            // the page has pictures only
   std::vector<std::pair<std::string, double>> seconds = {};  // of each stage
