@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "program.h"
+#include "sphparam/mesh/mesh_defects.h"
+#include "support/joined.h"
 #include "support/test_meshes.h"
 
 namespace sphparam::tests {
@@ -50,6 +52,27 @@ TEST_CASE("info: a sphere is mappable, its figures are right") {
   CHECK(inspection["euler_characteristic"] == 2);
   CHECK(inspection["area"].get<double>() == Approx(12.5).margin(0.1));
   CHECK(inspection["volume"].get<double>() == Approx(4.15).margin(0.1));
+}
+
+TEST_CASE("info: cavities are told, not sent to a wrap, and not called inside out") {
+  const Folder folder;
+  TriangleMesh cavity = icosphere(1);
+  cavity.positions *= 0.1;
+  cavity.triangles.col(1).swap(cavity.triangles.col(2));
+  const std::string mesh = folder / "hollow.obj";
+  write_bytes(mesh, obj_text(joined(icosphere(3), cavity, {0.5, 0, 0})));
+  CHECK_THAT(sphparam_program({"info", mesh}).out,
+             Contains("components    2, 1 of them a cavity within the largest: volume 0.0036"));
+  const Json found = Json::parse(sphparam_program({"info", mesh, "--json", "-"}).out)["cavities"];
+  CHECK(found["count"] == 1);
+  CHECK(found["share"].get<double>() ==
+        Approx(inspect_mesh(icosphere(1)).volume / inspect_mesh(icosphere(3)).volume / 1000));
+  const Ended kept = sphparam_program({"map", mesh, "--repair", "-o", folder / "a.sph.ply"});
+  CHECK_THAT(kept.err, Contains("1 component dropped, a cavity within what was kept (volume ") &&
+                           !Contains("sphparam asset"));
+  const Ended all = sphparam_program({"map", mesh, "--all-components", "-o", folder / "b.sph.ply"});
+  CHECK(all.code == 0);
+  CHECK_THAT(all.err, Contains("a cavity within component 1)") && !Contains("inside out"));
 }
 
 TEST_CASE("info: an open mesh has no volume") {

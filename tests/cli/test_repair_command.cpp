@@ -103,6 +103,26 @@ TEST_CASE("repair command: what is left is answered with what would mend it") {
                             Contains(" -o " + out + "`"));
 }
 
+TEST_CASE("repair command: a sheet that is closed back to back is warned of, a body is not") {
+  const Folder folder;
+  const std::string mesh = folder / "sheet.obj", out = folder / "sheet.ply",
+                    json = folder / "r.json";
+  write_bytes(
+      mesh, "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv .5 .5 0\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n");
+  const Ended sheet = sphparam_program({"repair", mesh, "-o", out, "--json", json});
+  INFO(sheet.err);
+  CHECK(sheet.code == 0);
+  CHECK_THAT(sheet.err, Contains("warning: it encloses nothing: two sheets") &&
+                            Contains("`sphparam wrap " + mesh + " -o wrapped.ply` makes a body"));
+  const Json report = Json::parse(bytes_of(json));
+  REQUIRE(report["warnings"].size() == 1);
+  CHECK(report["shape"]["volume"] == 0);
+  CHECK(report["shape"]["volume_before"].is_null());
+  CHECK(report["shape"]["bounding_box"] == report["shape"]["bounding_box_before"]);
+  const Ended body = sphparam_program({"repair", "-", "-o", out, "--json", json}, obj_text(scan()));
+  CHECK_THAT(body.err, !Contains("encloses nothing"));
+}
+
 TEST_CASE(
     "repair command: what STL would weld again is told where repair split something, only there") {
   const Folder folder;

@@ -1,11 +1,16 @@
+#include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <set>
 
 #include "reading.h"
 #include "sphparam/io/components.h"
 #include "sphparam/io/mesh_refusal.h"
 #include "sphparam/io/repair_advice.h"
+#include "sphparam/io/shape_change.h"
 #include "support/joined.h"
 #include "support/one_sided.h"
 #include "support/shaken.h"
@@ -192,6 +197,129 @@ TEST_CASE("repaired: what a weld would have spared is told, and nothing where it
   CHECK_THAT(weld_line(unasked), StartsWith("--repair --weld 2e-05% puts in and drops 0 %"));
   CHECK(weld_line(mended(torn, {})) == weld_line(unasked));
   CHECK(weld_line(repaired(source_of(open_ball(), "a.ply"), {})).empty());
+}
+
+namespace {
+
+/// A body on a grid of longitudes and latitudes, with a copy of each pole for each longitude, as
+/// archives have them: r cos(π/2) from the axis, which is 1e-16 and not 0.
+TriangleMesh with_copies_of_poles(int longitudes) {
+  const int parallels = longitudes / 2;
+  TriangleMesh mesh;
+  mesh.positions.resize((parallels + 1) * longitudes, 3);
+  std::vector<std::array<Vertex, 3>> faces;
+  for (int i = 0; i <= parallels; ++i) {
+    for (int j = 0; j < longitudes; ++j) {
+      const double latitude = std::numbers::pi * (double(i) / parallels - 0.5),
+                   longitude = 2 * std::numbers::pi * j / longitudes;
+      mesh.positions.row(i * longitudes + j) << 100 * std::cos(latitude) * std::cos(longitude),
+          100 * std::cos(latitude) * std::sin(longitude), 90 * std::sin(latitude);
+      const Vertex a = i * longitudes + j, b = i * longitudes + (j + 1) % longitudes;
+      if (i > 0 && i < parallels) faces.push_back({a, b, b + longitudes});
+      if (i < parallels - 1) faces.push_back({a, b + longitudes, a + longitudes});
+    }
+  }
+  mesh.triangles.resize(std::ssize(faces), 3);
+  for (size_t f = 0; f < faces.size(); ++f)
+    mesh.triangles.row(static_cast<Eigen::Index>(f)) << faces[f][0], faces[f][1], faces[f][2];
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "try_repair: copies of a pole, apart by rounding, are welded, also where that costs no area") {
+  for (const int longitudes : {36, 72}) {
+    INFO(longitudes);
+    const MeshSource body = source_of(with_copies_of_poles(longitudes), "body.obj");
+    REQUIRE(body.inspection.boundary_loops == 2);
+    const RepairTrial trial = try_repair(body);
+    REQUIRE(trial.can_mend());
+    CHECK_THAT(repair_advice(trial, body.path), StartsWith("  --repair --weld 2e-05% would"));
+    REQUIRE_FALSE(trial.actions.empty());
+    CHECK(trial.actions[0].kind == RepairKind::VertexWelded);
+    CHECK(trial.actions[0].count == 2 * (longitudes - 1));
+    const MeshSource welded = repaired(body, trial.options);
+    CHECK(welded.file.mesh.vertex_count() == longitudes * (longitudes / 2 - 1) + 2);
+    CHECK(weld_line(welded).empty());
+    CHECK(weld_line(repaired(body, {})) ==
+          "--repair --weld 2e-05% leaves no hole to close: rounding keeps apart what belongs "
+          "together");
+  }
+}
+
+TEST_CASE("connected_parts: a cavity is one, and not inside out") {
+  TriangleMesh cavity = icosphere(2);
+  cavity.positions *= 0.1;
+  cavity.triangles.col(1).swap(cavity.triangles.col(2));
+  const auto is_inside_out = [](const MeshPart& part) {
+    return std::ranges::any_of(part.source.inspection.defects, [](const MeshDefect& defect) {
+      return defect.kind == DefectKind::InsideOut;
+    });
+  };
+  for (const double away : {0.0, 3.0}) {
+    const std::vector<MeshPart> parts =
+        connected_parts(source_of(joined(icosphere(2), cavity, {away, 0, 0}), "two.ply"));
+    REQUIRE(parts.size() == 2);
+    CHECK_FALSE(parts[0].is_cavity);
+    CHECK(parts[1].is_cavity == (away == 0));
+    CHECK(is_inside_out(parts[1]) == (away > 0));
+  }
+}
+
+TEST_CASE("shape_change: what caps add to volume and box is told, against what was there") {
+  // Two of its faces the wrong way round, so that the volume of the file is none.
+  TriangleMesh ring = bumped_torus(12, 30, 0.3, 0, 1);
+  const double volume = inspect_mesh(ring).volume;
+  std::swap(ring.triangles(7, 1), ring.triangles(7, 2));
+  std::swap(ring.triangles(90, 1), ring.triangles(90, 2));
+  const MeshSource mended_ring = repaired(source_of(ring, "ring.ply"), {.longest_handle = 1});
+  REQUIRE(mended_ring.handles.size() == 1);
+  const std::optional<ShapeChange> change = shape_change(mended_ring);
+  REQUIRE(change);
+  REQUIRE(change->volume_before);
+  CHECK(*change->volume_before == Approx(volume).epsilon(1e-12));
+  CHECK(change->volume == mended_ring.inspection.volume);
+  CHECK(*change->volume != Approx(volume).epsilon(1e-6));
+  CHECK_THAT(shape_line(mended_ring),
+             StartsWith("the volume is ") && Contains(" and was ") && Contains(" % "));
+  // Over a hole there was no volume, and flat caps leave no box.
+  const MeshSource whole = repaired(source_of(open_ball(), "a.ply"), {});
+  REQUIRE(shape_change(whole));
+  CHECK_FALSE(shape_change(whole)->volume_before);
+  CHECK(shape_line(whole).empty());
+  CHECK_FALSE(shape_change(source_of(icosphere(1), "a.ply")));
+}
+
+TEST_CASE("shape_change: what leaves the bounding box is told by axis") {
+  MeshSource raised = repaired(source_of(open_ball(), "a.ply"), {});
+  const Face cap = static_cast<Face>(raised.file.mesh.face_count() - 1);
+  const Vertex top = static_cast<Vertex>(raised.file.mesh.vertex_count());
+  Points& positions = raised.file.mesh.positions;
+  positions.conservativeResize(top + 1, 3);
+  positions.row(top) << 0, 0, 2;
+  raised.file.mesh.triangles(cap, 0) = top;
+  Property numbers = *raised.file.find_vertex_property("source_vertex");
+  numbers.values.push_back(-1);
+  raised.file.set_vertex_property(numbers);
+  CHECK(shape_line(raised) ==
+        "what was put in leaves the bounding box: z was from -1 to 1 and is from -1 to 2");
+}
+
+TEST_CASE("hollow_line: a sheet that is closed back to back encloses nothing, a thin body does") {
+  TriangleMesh square;
+  square.positions.resize(5, 3);
+  square.positions << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.5, 0.5, 0;
+  square.triangles.resize(4, 3);
+  square.triangles << 0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4;
+  const MeshSource sheet = repaired(source_of(square, "a sheet.stl"), {});
+  CHECK(hollow_line(sheet) ==
+        "it encloses nothing: two sheets that lie on one another; `sphparam wrap 'a sheet.stl' -o "
+        "wrapped.ply` makes a body of it, twice its --distance LENGTH thick");
+  TriangleMesh thin = icosphere(2);
+  thin.positions.col(2) *= 1e-3;
+  CHECK(hollow_line(mended(source_of(thin, "a.ply"), {})).empty());
+  CHECK(hollow_line(source_of(open_ball(), "a.ply")).empty());
 }
 
 TEST_CASE("refuse: of several components it says what each takes, and of one what it needs") {

@@ -80,7 +80,7 @@ class PartsRun {
     return "component " + std::to_string(number) + " of " + std::to_string(count_) + " (" +
            percent(part.area_share) + " of the area, " +
            counted(static_cast<long>(part.source.file.mesh.face_count()), "triangle", "triangles") +
-           ")";
+           (part.is_cavity ? ", a cavity within component 1)" : ")");
   }
 
   void map_part(size_t number, MeshPart part) {

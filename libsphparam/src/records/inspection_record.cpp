@@ -5,10 +5,11 @@
 
 #include "io/attributes/corner_colours.h"
 #include "io/inspected_source.h"
+#include "mesh/cavities.h"
 #include "number_text.h"
 #include "place_text.h"
-#include "records/json_parts.h"
 #include "records/body_record.h"
+#include "records/json_parts.h"
 #include "sphparam/io/fillers.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/repair_advice.h"
@@ -57,6 +58,26 @@ std::string topology(const MeshInspection& mesh) {
   if (mesh.genus >= 0) text += ", genus " + std::to_string(mesh.genus);
   if (mesh.boundary_loops) text += ", " + std::to_string(mesh.boundary_loops) + " boundary loops";
   return text;
+}
+
+/// "7, 6 of them cavities within the largest: volume 93.2, 0.307 % of it".
+std::string components(const MeshSource& source) {
+  std::string text = std::to_string(source.inspection.components);
+  if (source.inspection.components < 2) return text;
+  const Cavities cavities = find_cavities(source.file.mesh);
+  if (cavities.lowest.empty()) return text;
+  return text + ", " + std::to_string(cavities.lowest.size()) + " of them " +
+         (cavities.lowest.size() == 1 ? "a cavity" : "cavities") + " within the largest: volume " +
+         short_number(cavities.volume, figure_digits) + ", " + percent(cavities.share) + " of it";
+}
+
+/// Null where there are none.
+Json cavities_json(const MeshSource& source) {
+  if (source.inspection.components < 2) return nullptr;
+  const Cavities cavities = find_cavities(source.file.mesh);
+  if (cavities.lowest.empty()) return nullptr;
+  return {
+      {"count", cavities.lowest.size()}, {"volume", cavities.volume}, {"share", cavities.share}};
 }
 
 /// What fillers close of a mesh, and what is surface without them.
@@ -111,9 +132,9 @@ std::string figures(const MeshSource& source, const std::optional<ClosedHoles>& 
       file.polygons ? ", " + std::to_string(file.polygons) + " polygons were triangulated" : "";
   return line("format", file.format) + line("vertices", std::to_string(mesh.vertices)) +
          line("triangles", std::to_string(mesh.faces) + triangulated) +
-         line("edges", std::to_string(mesh.edges)) +
-         line("components", std::to_string(mesh.components)) + line("topology", topology(mesh)) +
-         line("bounding box", box(mesh.lower, mesh.upper)) + filler_line(closed) +
+         line("edges", std::to_string(mesh.edges)) + line("components", components(source)) +
+         line("topology", topology(mesh)) + line("bounding box", box(mesh.lower, mesh.upper)) +
+         filler_line(closed) +
          line("area", short_number(closed ? closed->area : mesh.area, figure_digits)) +
          (mesh.boundary_loops > 0 ? ""  // an open mesh encloses none
                                   : line("volume", short_number(mesh.volume, figure_digits))) +
@@ -182,9 +203,11 @@ std::string to_json(const InspectionRecord& record) {
                   {"inspection", inspection},
                   {"crossings", record.crossings ? crossings_json(*record.crossings) : Json()},
                   {"fillers", closed_json(closed)},
+                  {"cavities", cavities_json(record.source)},
                   {"repair", trial_json(record.source, record.repair)},
                   {"welded", record.source.welded || is_soup(record.source.file)},
                   {"provenance", pairs_json(provenance_in(record.source.file))},
+                  {"body", body_json(enclosed_body(record.source.file.mesh, record.source.inspection))},
                   {"notes", record.source.notes},
                   {"seconds", record.seconds}});
 }
@@ -194,6 +217,9 @@ std::string to_text(const InspectionRecord& record) {
   const std::optional<ClosedHoles> closed = closed_holes(source.file);
   std::string text =
       display_name(source.path) + "\n" + figures(source, closed) + crossings_line(record);
+  const Vector3 sides = source.inspection.upper - source.inspection.lower;
+  for (const auto& [label, value] : body_lines(enclosed_body(source.file.mesh, source.inspection), sides.maxCoeff()))
+    text += line(label, value);
   for (const auto& [key, value] : provenance_in(source.file)) text += line("map " + key, value);
   for (const std::string& note : source.notes) text += line("note", note);
   if (!source.inspection.defects.empty()) {
@@ -207,10 +233,6 @@ std::string to_text(const InspectionRecord& record) {
   }
   text += "This mesh cannot be mapped to a sphere as it is.\n";
   return record.repair ? text + repair_advice(*record.repair, source.path, "", record.parts) : text;
-                  {"body", body_json(enclosed_body(record.source))},
 }
 
 }  // namespace sphparam
-  const Vector3 sides = source.inspection.upper - source.inspection.lower;
-  for (const auto& [label, value] : body_lines(enclosed_body(source), sides.maxCoeff()))
-    text += line(label, value);

@@ -5,10 +5,27 @@
 
 #include "number_text.h"
 #include "records/json_parts.h"
+#include "sphparam/io/shape_change.h"
 #include "sphparam/names.h"
 #include "sphparam/version.h"
 
 namespace sphparam {
+
+namespace {
+
+Json number_or_null(const std::optional<double>& number) { return number ? Json(*number) : Json(); }
+
+/// Null where nothing was put in.
+Json shape_json(const std::optional<ShapeChange>& change) {
+  if (!change) return nullptr;
+  return {{"volume", number_or_null(change->volume)},
+          {"volume_before", number_or_null(change->volume_before)},
+          {"bounding_box", {vector_json(change->lower), vector_json(change->upper)}},
+          {"bounding_box_before",
+           {vector_json(change->lower_before), vector_json(change->upper_before)}}};
+}
+
+}  // namespace
 
 std::string to_json(const RepairRecord& record) {
   const MeshSource& source = record.source;
@@ -20,6 +37,7 @@ std::string to_json(const RepairRecord& record) {
                   {"repairs", repairs_json(source.repairs)},
                   {"handles", handles_json(source.handles)},
                   {"added", source.added_share},
+                  {"shape", shape_json(shape_change(source))},
                   {"components", parts_json(source.parts)},
                   {"inspection", inspection_json(source.inspection)},
                   {"losses", record.losses},

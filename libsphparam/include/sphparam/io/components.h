@@ -10,6 +10,9 @@ namespace sphparam {
 struct MeshPart {
   MeshSource source;      // its vertices and faces have the numbers of the file; the file's notes
   double area_share = 1;  // of all parts; of a mesh without area, its share of the faces
+  /// Of what the largest part encloses: its faces look into it, and it is not told to be inside
+  /// out.
+  bool is_cavity = false;
 };
 
 /// Those of the repairs that come before components: the others are for each by itself.

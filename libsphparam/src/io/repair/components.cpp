@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "io/repair/mesh_part.h"
+#include "mesh/cavities.h"
 #include "mesh/flat_face.h"
 #include "mesh/triangle_geometry.h"
 #include "mesh/union_find.h"
@@ -56,13 +57,21 @@ std::vector<Part> parts_of(const TriangleMesh& mesh) {
   return parts;
 }
 
-MeshSource source_of(const MeshSource& whole, const MeshFile& numbered, const Part& part) {
+/// Whose faces look inward as they should.
+void forgive_inside_out(MeshInspection& inspection) {
+  std::erase_if(inspection.defects,
+                [](const MeshDefect& defect) { return defect.kind == DefectKind::InsideOut; });
+}
+
+MeshSource source_of(const MeshSource& whole, const MeshFile& numbered, const Part& part,
+                     bool is_cavity) {
   MeshSource source;
   source.path = whole.path;
   source.file = part_of(numbered, part.faces);
   source.topology = Topology::try_build(source.file.mesh.triangles,
                                         static_cast<int>(source.file.mesh.vertex_count()));
   source.inspection = inspect_mesh(source.file.mesh);
+  if (is_cavity) forgive_inside_out(source.inspection);
   source.inspection.defects =
       by_file_numbers(std::move(source.inspection.defects), FileNumbers(source.file));
   source.welded = whole.welded;
@@ -127,10 +136,12 @@ std::vector<MeshPart> connected_parts(MeshSource source, const RepairOptions& re
   for (const Part& part : parts) area += part.area;
   const auto faces = static_cast<double>(source.file.mesh.face_count());
   const MeshFile numbered = with_numbers(source.file);
+  const Cavities cavities = find_cavities(source.file.mesh);
   for (const Part& part : parts) {
+    const bool is_cavity = std::ranges::binary_search(cavities.lowest, part.vertex);
     const double share =
         area > 0 ? part.area / area : static_cast<double>(part.faces.size()) / faces;
-    result.push_back({source_of(source, numbered, part), share});
+    result.push_back({source_of(source, numbered, part, is_cavity), share, is_cavity});
   }
   return result;
 }

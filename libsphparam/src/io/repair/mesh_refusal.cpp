@@ -162,6 +162,36 @@ bool is_spared(double changed, double changed_welded) {
   return changed >= least_spared && changed_welded <= changed / 2;
 }
 
+/// Whether holes were closed, by surface or by fillers.
+bool closes_holes(const std::vector<RepairAction>& actions) {
+  return count_of(actions, RepairKind::HoleFilled) + count_of(actions, RepairKind::HoleKept) > 0;
+}
+
+/// Whether holes were closed with little area: they may have none, but be what rounding leaves
+/// between vertices that belong together, as the copies of a pole, one for each longitude.
+bool closes_little(const std::vector<RepairAction>& actions, double changed) {
+  return changed < least_spared && closes_holes(actions);
+}
+
+/// The least distance at which welding may join what belongs together, which is rounding where
+/// holes have no area; 0: there is none.
+double least_weld(const TriangleMesh& mesh, bool is_rounding) {
+  if (is_rounding) return rounding_weld(mesh);
+  const std::vector<double> shares = weld_shares(mesh);
+  return shares.empty() ? 0 : shares.front();
+}
+
+std::vector<double> welds_to_try(const TriangleMesh& mesh, bool in_pieces, bool is_rounding) {
+  if (in_pieces) return weld_shares(mesh);
+  const double least = least_weld(mesh, is_rounding);
+  return least > 0 ? std::vector{least} : std::vector<double>();
+}
+
+/// A weld was chosen, or a component of what is not welded.
+bool leaves_no_weld(const RepairOptions& wanted) {
+  return wanted.component > 0 || wanted.weld_share >= 0 || wanted.weld_length >= 0;
+}
+
 constexpr std::string_view weld_note_begins = "--repair --weld ";
 
 /// What `weld_line` finds; empty where welding at the least distance that joins anything would
@@ -169,16 +199,20 @@ constexpr std::string_view weld_note_begins = "--repair --weld ";
 std::string weld_note(const TriangleMesh& mesh, const RepairedMesh& mended,
                       const RepairOptions& done) {
   const double changed = changed_share(mended);
-  const bool is_asked = done.component > 0 || done.weld_share >= 0 || done.weld_length >= 0;
-  if (is_asked || !done.cracks || changed < least_spared) return "";
-  const std::vector<double> shares = weld_shares(mesh);
-  if (shares.empty()) return "";
+  const bool closed_little = closes_little(mended.actions, changed);
+  if (leaves_no_weld(done) || !done.cracks || (changed < least_spared && !closed_little)) return "";
+  const double share = least_weld(mesh, closed_little);
+  if (share == 0) return "";
   RepairOptions options = done;
-  options.weld_share = shares.front();
+  options.weld_share = share;
   const RepairedMesh welded = repair_mesh(mesh, options);
-  if (!welded.inspection.is_sphere() || !is_spared(changed, changed_share(welded))) return "";
-  return std::string(weld_note_begins) + short_number(100 * options.weld_share, 6) +
-         "% puts in and drops " + percent(changed_share(welded)) + " of the area, not " +
+  if (!welded.inspection.is_sphere()) return "";
+  const std::string weld =
+      std::string(weld_note_begins) + short_number(100 * options.weld_share, 6) + "%";
+  if (closed_little && !closes_holes(welded.actions))
+    return weld + " leaves no hole to close: rounding keeps apart what belongs together";
+  if (!is_spared(changed, changed_share(welded))) return "";
+  return weld + " puts in and drops " + percent(changed_share(welded)) + " of the area, not " +
          percent(changed) + ": rounding keeps apart what belongs together";
 }
 
@@ -252,14 +286,12 @@ long changes_in(const RepairTrial& trial) {
 }
 
 /// Where a mesh is in pieces because what belongs together is apart by small errors: the repair
-/// that welds it and keeps it whole, at the distance that leaves least to be done besides. With
-/// `only_least` the least distance alone is tried.
+/// that welds it and keeps it whole, at that of these distances that leaves least to be done
+/// besides.
 std::optional<Tried> tried_welding(const MeshSource& source, const RepairOptions& wanted,
-                                   bool only_least) {
-  if (wanted.component > 0 || wanted.weld_share >= 0 || wanted.weld_length >= 0)
-    return std::nullopt;
+                                   const std::vector<double>& shares) {
   std::optional<Tried> best;
-  for (const double share : weld_shares(source.file.mesh)) {
+  for (const double share : shares) {
     RepairOptions options = all_as(wanted);
     options.weld_share = share;
     options.only_whole = true;
@@ -270,7 +302,6 @@ std::optional<Tried> tried_welding(const MeshSource& source, const RepairOptions
       best = std::move(welded);
       if (changes_in(best->trial) == 0) break;
     }
-    if (only_least) break;
   }
   return best;
 }
@@ -339,10 +370,15 @@ std::string weld_line(const MeshSource& source) {
 
 RepairTrial try_repair_beyond(const MeshSource& source, const RepairOptions& wanted) {
   Tried plain = tried(source, all_as(wanted));
-  const bool in_pieces = plain.trial.parts.refused;
-  if (!in_pieces && plain.changed < least_spared) return std::move(plain.trial);
-  std::optional<Tried> welded = tried_welding(source, wanted, !in_pieces);
-  const bool spares = welded && (in_pieces || is_spared(plain.changed, welded->changed));
+  const bool in_pieces = plain.trial.parts.refused,
+             closed_little = closes_little(plain.trial.actions, plain.changed);
+  if (!in_pieces && !closed_little && plain.changed < least_spared) return std::move(plain.trial);
+  if (leaves_no_weld(wanted)) return std::move(plain.trial);
+  std::optional<Tried> welded =
+      tried_welding(source, wanted, welds_to_try(source.file.mesh, in_pieces, closed_little));
+  const bool spares =
+      welded && (in_pieces || (closed_little && !closes_holes(welded->trial.actions)) ||
+                 is_spared(plain.changed, welded->changed));
   return spares ? std::move(welded->trial) : std::move(plain.trial);
 }
 
@@ -355,7 +391,7 @@ UnaskedRepair try_repair_unasked(const MeshSource& source) {
 }
 
 UnaskedRepair try_weld(const MeshSource& source) {
-  std::optional<Tried> welded = tried_welding(source, {}, false);
+  std::optional<Tried> welded = tried_welding(source, {}, weld_shares(source.file.mesh));
   if (!welded || !asks_no_more(welded->trial)) return {};
   RepairOptions options = welded->trial.options;
   options.only_whole = true;

@@ -67,7 +67,10 @@ std::string shared_places_line(const MeshSource& mended) {
   return counted(shared.vertices, "vertex lies exactly on another",
                  "vertices lie exactly on others") +
          ": .ply and .obj keep them apart, STL welds them (" + welded + "), and `sphparam wrap " +
-         shell_file(mended.path) + " -o wrapped.ply` makes a surface without such";
+         shell_file(mended.path) +
+         " -o wrapped.ply` makes a surface without such, larger by its distance (by as little as "
+         "you "
+         "say with --gap LENGTH)";
 }
 
 }  // namespace sphparam

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/cavities.h"
 #include "mesh/repair/repair_state.h"
 #include "mesh/triangle_geometry.h"
 #include "mesh/union_find.h"
@@ -58,6 +59,14 @@ std::vector<SurfacePart> with_shares(const RepairState& state, const std::vector
   return shares;
 }
 
+/// Of the largest component, before the others go.
+void count_cavities(RepairState& state) {
+  const Cavities found = find_cavities(state.mesh());
+  state.cavities.count += std::ssize(found.lowest);
+  state.cavities.volume += found.volume;
+  state.cavities.share += found.share;
+}
+
 void drop_others(RepairState& state, UnionFind& classes, const std::vector<Part>& ranked,
                  int chosen) {
   for (const Part& part : ranked) {
@@ -96,6 +105,7 @@ void keep_component(RepairState& state, int rank, double least_kept) {
   if (parts.refused) return;
   parts.area_share *= chosen.area_share;
   parts.face_share *= chosen.face_share;
+  if (rank == 1) count_cavities(state);
   drop_others(state, classes, ranked, ranked[rank - 1].root);
 }
 

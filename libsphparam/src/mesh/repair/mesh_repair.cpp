@@ -148,7 +148,11 @@ RepairedMesh as_result(RepairState&& state, MeshInspection inspection) {
   }
   std::stable_sort(result.actions.begin(), result.actions.end(),
                    [](const RepairAction& x, const RepairAction& y) { return x.kind < y.kind; });
-  for (RepairAction& action : result.actions) action.message = describe(action);
+  for (RepairAction& action : result.actions) {
+    action.message = describe(action);
+    if (action.kind == RepairKind::ComponentDropped)
+      action.message = with_cavities(action, state.cavities);
+  }
   return result;
 }
 

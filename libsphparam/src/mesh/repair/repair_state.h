@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <vector>
 
+#include "mesh/repair/dropped_cavities.h"
 #include "sphparam/mesh/mesh_repair.h"
 
 namespace sphparam {
@@ -29,6 +30,7 @@ struct RepairState {
   std::vector<std::vector<Vertex>> mean_of;  // #V: of created vertices, else empty
   std::vector<RepairAction> actions;         // one a kind
   KeptParts parts;
+  DroppedCavities cavities;
   std::vector<HandleLoop> handles;
   double shortest_handle_left = 0;  // found when handles were last looked for
   double scale = 1;                 // a length of `positions` is this times that of `shape`

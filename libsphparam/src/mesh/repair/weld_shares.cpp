@@ -128,7 +128,21 @@ bool joins_anything(const TriangleMesh& mesh, double share) {
   return joined() > without;
 }
 
+/// 0 where that is none of these, or edges of the boundary are not much longer.
+double short_rounding(const TriangleMesh& mesh, const Boundary& boundary) {
+  if (boundary.places.empty()) return 0;
+  const double rounding = rounding_share(mesh);
+  return rounding > 0 && rounding * much_longer <= boundary.edge ? rounding : 0;
+}
+
 }  // namespace
+
+double rounding_weld(const TriangleMesh& mesh) {
+  if (mesh.vertex_count() == 0 || !mesh.positions.allFinite()) return 0;
+  const Boundary boundary = boundary_of(mesh);
+  const double rounding = short_rounding(mesh, boundary);
+  return rounding > 0 && near_ones(boundary.places, rounding) > 0 ? rounding : 0;
+}
 
 std::vector<double> weld_shares(const TriangleMesh& mesh) {
   if (mesh.vertex_count() == 0 || !mesh.positions.allFinite()) return {};
@@ -140,9 +154,8 @@ std::vector<double> weld_shares(const TriangleMesh& mesh) {
     shares.insert(shares.begin(), share);
   }
   if (!shares.empty() || boundary.places.empty()) return shares;
-  const double rounding = rounding_share(mesh);
-  const bool is_short = rounding > 0 && rounding * much_longer <= boundary.edge;
-  if (is_short && joins_anything(mesh, rounding)) shares.push_back(rounding);
+  const double rounding = short_rounding(mesh, boundary);
+  if (rounding > 0 && joins_anything(mesh, rounding)) shares.push_back(rounding);
   return shares;
 }
 

@@ -16,4 +16,8 @@ namespace sphparam {
 /// edge. Cost: O(#F log #F).
 std::vector<double> weld_shares(const TriangleMesh& mesh);
 
+/// The rounding of float32 as such a distance, if any vertex on a boundary is as near as that to
+/// another one, and most edges there are much longer; else 0. Cost: O(#F log #F), little of it.
+double rounding_weld(const TriangleMesh& mesh);
+
 }  // namespace sphparam

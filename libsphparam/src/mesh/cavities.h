@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "sphparam/mesh/triangle_mesh.h"
+
+namespace sphparam {
+
+/// Closed components within the largest one, by area, whose faces look the other way: the borders
+/// of cavities in what that encloses.
+struct Cavities {
+  std::vector<Vertex> lowest;  // of the vertices of each, in ascending order
+  double volume = 0;           // of all
+  double share = 0;            // of what the largest component encloses, the cavities included
+};
+
+/// None where there is one component, or the largest is not closed. Where a component lies, its
+/// lowest vertex says, exactly. None either of a mesh with vertices without a place, or faces that
+/// name none. Cost: O(#V + #F log #F).
+Cavities find_cavities(const TriangleMesh& mesh);
+
+}  // namespace sphparam
