@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "image/image_codec.h"
+#include "render/value_paint.h"
 #include "sphparam/io/fillers.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/sphere_file.h"
@@ -187,6 +188,33 @@ TEST_CASE("coloured values: a texture, which would be seen instead of the colour
   CHECK(told.base_colours.empty());
   CHECK(told.channels.empty());
   CHECK(told.materials == skinned.materials);
+}
+
+TEST_CASE("scalar colours: those that a picture has, alone, with their range in a comment") {
+  MeshFile ball = file_of(icosphere(0));
+  Property height{"height", ScalarType::Float64, {}};
+  for (const double z : ball.mesh.positions.col(2)) height.values.push_back(z);
+  ball.set_vertex_property(height);
+  ball.set_vertex_property({"alpha", ScalarType::Uint8, std::vector<double>(12, 128)});
+  ball.comments = {"TextureFile skin.png", "scanned"};
+  ball.base_colours = {MaterialTexture{.image = "skin.png"}};
+  const auto told = [&](const std::string& name, std::optional<std::pair<double, double>> range) {
+    const MeshFile seen = with_scalar_colours(ball, name, range);
+    CHECK(seen.base_colours.empty());
+    CHECK_FALSE(seen.find_vertex_property("alpha"));
+    CHECK(seen.find_vertex_property("height")->values == height.values);
+    const std::vector<Rgb> colours = value_paint(ball, name, range).paint.colours;
+    for (size_t v = 0; v < 12; ++v)
+      CHECK(seen.find_vertex_property("green")->values[v] ==
+            std::round(255 * static_cast<double>(colours[v][1])));
+    REQUIRE(seen.comments.size() == ball.comments.size());
+    return seen.comments.back();
+  };
+  CHECK(told("height", {{-2, 2}}) == "colours of height: from -2 (blue) by 0 (white) to 2 (red)");
+  CHECK(told("height", {{0, 1}}) == "colours of height: from 0 (dark) to 1 (yellow)");
+  ball.set_vertex_property({"part", ScalarType::Int32, std::vector<double>(12, 1)});
+  ball.comments = {"gifti label 1 0 1 0 1 green", "TextureFile skin.png"};
+  CHECK(told("part", {}) == "colours of part: of its table");
 }
 
 TEST_CASE("coloured values: of both signs, blue to red as far both ways") {

@@ -2,6 +2,7 @@
 
 #include "arguments/export_arguments.h"
 
+#include "arguments/ends.h"
 #include "arguments/texture_arguments.h"
 #include "console/exit_codes.h"
 #include "console/places.h"
@@ -9,6 +10,20 @@
 namespace sphparam::cli {
 
 namespace {
+
+void declare_scalar(Declaration& command, ExportArguments& arguments) {
+  command
+      .text("--scalar", arguments.scalar, "NAME",
+            "A number of the vertices, seen as colours: those of `render --scalar`")
+      .parsed(
+          "--range", "MIN,MAX",
+          [&arguments](const std::string& text) {
+            arguments.range = two_ends(text);
+            return arguments.range.has_value();
+          },
+          wanted_ends, "The scale of that number")
+      .preset("its 2nd to its 98th percentile; all of whole numbers");
+}
 
 void declare_look(Declaration& command, LookOptions& look) {
   command.text("--image", look.texture, "IMAGE", "The equirectangular image, row 0 north")
@@ -87,6 +102,9 @@ void refuse_combinations(const ExportArguments& a, const std::string& extension)
   refuse(a.embedded && extension != ".gltf", "--embedded is for .gltf; a .glb is one file anyway");
   refuse(a.lods > 0 && is_stream(a.output) && a.lod_style == LodStyle::Files,
          "--lods are files: give -o a name");
+  refuse(!a.scalar.empty() && (!look.texture.empty() || !look.folder.empty()),
+         "--scalar is colours of its own: leave out --image and --images");
+  refuse(a.range && a.scalar.empty(), "--range is the scale of --scalar: name a number a vertex");
   refuse(look.unlit && (look.tangents || !look.normal.empty() || !look.occlusion.empty() ||
                         !look.orm.empty() || !look.emissive.empty()),
          "--unlit shows no light: leave out --normal-map, --occlusion-map, --orm-map, "
@@ -131,6 +149,7 @@ void declare_export_options(Declaration& command, ExportArguments& arguments) {
               "Lengths become so many times as long: 0.001 where the file is in millimetres, as "
               "glTF is in metres")
       .json(arguments);
+  declare_scalar(command, arguments);
   declare_look(command, arguments.exported.look);
   declare_chart(command, arguments.exported);
   declare_buffers(command, arguments);

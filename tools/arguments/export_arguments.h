@@ -1,6 +1,8 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "arguments/repair_arguments.h"
 #include "sphparam/gltf/export.h"
@@ -20,6 +22,8 @@ struct ExportArguments : CommonArguments {
   int lods = 0;
   double crease = -1;  // degrees; below 0: none
   double scale = 1;    // of lengths
+  std::string scalar;  // of the vertices, which is seen as colours; empty: none
+  std::optional<std::pair<double, double>> range;  // of its colours
   LodStyle lod_style = LodStyle::Files;
   RepairArguments repair;
 };

@@ -18,12 +18,15 @@
 #include "commands/sources.h"
 #include "console/places.h"
 #include "io/attributes/appearance.h"
+#include "io/attributes/remarks.h"
 #include "io/shell_word.h"
 #include "number_text.h"
+#include "sphparam/io/losses.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/measure/measurable.h"
 #include "sphparam/records/export_record.h"
 #include "sphparam/remesh/levels_of_detail.h"
+#include "sphparam/render/coloured_values.h"
 
 namespace sphparam::cli {
 
@@ -38,6 +41,7 @@ constexpr char summary[] =
     "  sphparam export statue.sph.ply --image earth.png --morph sphere -o statue.gltf\n"
     "  sphparam export statue.sph.ply --image earth.png --shape sphere -o ball.glb\n"
     "  sphparam export statue.sph.ply --image earth.png -o statue_earth.obj\n"
+    "  sphparam export brain.sph.ply --scalar sulc --range -2,2 -o brain.glb\n"
     "\n"
     "Any equirectangular image sits right: the mesh is split along the date line and at the "
     "poles,\n"
@@ -288,12 +292,39 @@ ExportArguments of_part(ExportArguments arguments, int part) {
   return arguments;
 }
 
+/// Colours of the number that is to be seen.
+void colour(MeshFile& file, const ExportArguments& arguments, Session& session) {
+  const std::string& name = arguments.scalar;
+  if (name.empty()) {
+    const Words left_out = numbers_not_shown(file);
+    const bool of_vertices = std::ranges::any_of(
+        left_out, [](const std::string& words) { return words.ends_with(" of vertices"); });
+    if (of_vertices)
+      session.console.say("  a number of its vertices is seen as colours with --scalar NAME");
+    return;
+  }
+  if (!file.find_vertex_property(name)) {
+    const bool of_faces = file.find_face_property(name) != nullptr;
+    Words names;
+    for (const Property& property : file.vertex_properties) names.push_back(property.name);
+    throw UsageMistake(
+        "--scalar: " +
+        (of_faces
+             ? name + " is of faces: `bake --map scalar:" + name + " --heat` makes an --image"
+             : "vertices have no '" + name + "'; " +
+                   (names.empty() ? "they have no numbers" : "there are " + enumerated(names))));
+  }
+  file = with_scalar_colours(std::move(file), name, arguments.range);
+  session.console.say("  " + file.comments.back());
+}
+
 /// The mesh with its map; what it lacks is told before it is mapped.
 MappedMesh read_exported(const ExportArguments& arguments, Session& session) {
   session.hold_signals();
   MeshSource source = read_mended(arguments.input, arguments.repair, session);
   crease(source.file, arguments.input, arguments.crease, session);
   scale_by(arguments.scale, source.file, session);
+  colour(source.file, arguments, session);
   if (arguments.exported.source_uv && !has_texcoords(source.file))
     throw UsageMistake("--source-uv: the mesh has no texture coordinates of its own");
   return map_source(std::move(source), arguments.sphere, session, arguments.repair);

@@ -2,9 +2,11 @@
 
 #include <cmath>
 
+#include "io/attributes/corner_colours.h"
 #include "io/attributes/texture_pages.h"
 #include "number_text.h"
 #include "render/colour.h"
+#include "render/value_paint.h"
 
 namespace sphparam {
 
@@ -17,15 +19,7 @@ std::vector<Rgb> signed_colours(const VectorX& values, double reach) {
   return colours;
 }
 
-}  // namespace
-
-MeshFile with_coloured_values(MeshFile file, const std::string& name, const VectorX& values,
-                              const std::string& about) {
-  const double largest = values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0;
-  const bool is_signed = values.size() > 0 && values.minCoeff() < 0;
-  const std::vector<Rgb> colours = is_signed ? signed_colours(values, largest)
-                                             : value_colours(values, 0, largest > 0 ? largest : 1);
-  remove_textures(file);
+void set_colours(MeshFile& file, const std::vector<Rgb>& colours) {
   int channel = 0;
   for (const char* colour_name : {"red", "green", "blue"}) {
     Property property = {colour_name, ScalarType::Uint8, {}};
@@ -35,6 +29,26 @@ MeshFile with_coloured_values(MeshFile file, const std::string& name, const Vect
     file.set_vertex_property(std::move(property));
     ++channel;
   }
+}
+
+std::string words_of(const std::optional<HeatScale>& scale) {
+  if (!scale) return "of its table";
+  constexpr int digits = 6;
+  return "from " + short_number(scale->low, digits) +
+         (scale->diverges() ? " (blue) by 0 (white) to " : " (dark) to ") +
+         short_number(scale->high, digits) + (scale->diverges() ? " (red)" : " (yellow)");
+}
+
+}  // namespace
+
+MeshFile with_coloured_values(MeshFile file, const std::string& name, const VectorX& values,
+                              const std::string& about) {
+  const double largest = values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0;
+  const bool is_signed = values.size() > 0 && values.minCoeff() < 0;
+  const std::vector<Rgb> colours = is_signed ? signed_colours(values, largest)
+                                             : value_colours(values, 0, largest > 0 ? largest : 1);
+  remove_textures(file);
+  set_colours(file, colours);
   file.set_vertex_property(
       {name, ScalarType::Float64, std::vector<double>(values.begin(), values.end())});
   if (!about.empty()) {
@@ -42,6 +56,17 @@ MeshFile with_coloured_values(MeshFile file, const std::string& name, const Vect
                             short_number(is_signed ? -largest : 0, 6) + " to " +
                             short_number(largest, 6));
   }
+  return file;
+}
+
+MeshFile with_scalar_colours(MeshFile file, const std::string& name,
+                             const std::optional<std::pair<double, double>>& range) {
+  const ValuePaint seen = value_paint(file, name, range);
+  remove_textures(file);
+  remove_corner_colours(file);
+  std::erase_if(file.vertex_properties, [](const Property& p) { return p.name == "alpha"; });
+  set_colours(file, seen.paint.colours);
+  file.comments.push_back("colours of " + one_line(name) + ": " + words_of(seen.scale));
   return file;
 }
 

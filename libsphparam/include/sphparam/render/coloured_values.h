@@ -1,6 +1,8 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "sphparam/io/mesh_file.h"
 
@@ -13,5 +15,11 @@ namespace sphparam {
 /// Requires: a finite number a vertex. Cost: linear.
 MeshFile with_coloured_values(MeshFile file, const std::string& name, const VectorX& values,
                               const std::string& about = "");
+
+/// A mesh file whose vertices are coloured by a property of theirs, as pictures of it are
+/// (`DrawingOptions::scalar` and `range`), labels by their table; other colours and textures are
+/// left out. Adds a comment that says the range. Requires: vertices have it. Cost: linear.
+MeshFile with_scalar_colours(MeshFile file, const std::string& name,
+                             const std::optional<std::pair<double, double>>& range = {});
 
 }  // namespace sphparam
