@@ -343,6 +343,19 @@ def test_more_vertices_go_where_it_bends(mapped):
     assert mapped.remesh("ico:3", adaptive=True).certificate.one_to_one
 
 
+def test_what_is_enclosed_has_a_centroid_moments_and_axes():
+    # An octahedron with corners 1, 2, 3 from its centre: V = 8, ∫ x² = V a²/10.
+    corners = np.array([[1, 0, 0], [-1, 0, 0], [0, 2, 0], [0, -2, 0], [0, 0, 3], [0, 0, -3.0]])
+    faces = np.array([[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]])
+    body = sp.inspect(corners + [10, 20, 30], faces).body
+    assert body.centroid == pytest.approx((10, 20, 30), abs=1e-13)
+    assert np.allclose(body.inertia, np.diag([10.4, 8, 4]), rtol=0, atol=1e-13)
+    assert body.principal_moments == pytest.approx((4, 8, 10.4), abs=1e-13)
+    assert np.allclose(body.principal_axes, [[0, 0, 1], [0, 1, 0], [-1, 0, 0]], rtol=0, atol=1e-13)
+    assert sp.inspect(corners, faces[1:]).body is None
+    assert sp.inspect(corners, np.concatenate([faces, [[0, 1, 9]]])).body is None
+
+
 def test_levels_have_about_a_quarter_each(mapped):
     counts = [len(level.faces) for level in mapped.levels(2)]
     assert len(counts) == 2 and 0.2 * len(F) < counts[0] < 0.3 * len(F) and 0.2 * counts[0] < counts[1] < 0.4 * counts[0]

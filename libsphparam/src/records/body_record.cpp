@@ -25,10 +25,11 @@ std::string direction(const Vector3& axis) { return "(" + place_text(axis, 1) + 
 
 }  // namespace
 
-std::optional<MassProperties> enclosed_body(const MeshSource& source) {
-  const MeshInspection& mesh = source.inspection;
-  if (mesh.boundary_loops > 0 || !std::ranges::all_of(mesh.defects, is_sound)) return std::nullopt;
-  return mass_properties(source.file.mesh);
+std::optional<MassProperties> enclosed_body(const TriangleMesh& mesh,
+                                            const MeshInspection& inspection) {
+  if (inspection.boundary_loops > 0 || !std::ranges::all_of(inspection.defects, is_sound))
+    return std::nullopt;
+  return mass_properties(mesh);
 }
 
 Json body_json(const std::optional<MassProperties>& body) {

@@ -11,7 +11,8 @@
 namespace sphparam {
 
 /// What a closed mesh encloses; nothing of an open one, or one whose faces or numbers are none.
-std::optional<MassProperties> enclosed_body(const MeshSource& source);
+std::optional<MassProperties> enclosed_body(const TriangleMesh& mesh,
+                                            const MeshInspection& inspection);
 
 /// Null where there is none.
 Json body_json(const std::optional<MassProperties>& body);

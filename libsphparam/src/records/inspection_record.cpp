@@ -197,19 +197,20 @@ std::string to_json(const InspectionRecord& record) {
   Json inspection = inspection_json(record.source.inspection);
   if (closed) inspection["area"] = closed->area;
   if (record.source.inspection.is_sphere()) inspection["mappable"] = is_mappable(record.source);
-  return text_of({{"sphparam", version},
-                  {"command", "info"},
-                  {"input", input_json(record.source)},
-                  {"inspection", inspection},
-                  {"crossings", record.crossings ? crossings_json(*record.crossings) : Json()},
-                  {"fillers", closed_json(closed)},
-                  {"cavities", cavities_json(record.source)},
-                  {"repair", trial_json(record.source, record.repair)},
-                  {"welded", record.source.welded || is_soup(record.source.file)},
-                  {"provenance", pairs_json(provenance_in(record.source.file))},
-                  {"body", body_json(enclosed_body(record.source.file.mesh, record.source.inspection))},
-                  {"notes", record.source.notes},
-                  {"seconds", record.seconds}});
+  return text_of(
+      {{"sphparam", version},
+       {"command", "info"},
+       {"input", input_json(record.source)},
+       {"inspection", inspection},
+       {"crossings", record.crossings ? crossings_json(*record.crossings) : Json()},
+       {"fillers", closed_json(closed)},
+       {"cavities", cavities_json(record.source)},
+       {"repair", trial_json(record.source, record.repair)},
+       {"welded", record.source.welded || is_soup(record.source.file)},
+       {"provenance", pairs_json(provenance_in(record.source.file))},
+       {"body", body_json(enclosed_body(record.source.file.mesh, record.source.inspection))},
+       {"notes", record.source.notes},
+       {"seconds", record.seconds}});
 }
 
 std::string to_text(const InspectionRecord& record) {
@@ -218,7 +219,8 @@ std::string to_text(const InspectionRecord& record) {
   std::string text =
       display_name(source.path) + "\n" + figures(source, closed) + crossings_line(record);
   const Vector3 sides = source.inspection.upper - source.inspection.lower;
-  for (const auto& [label, value] : body_lines(enclosed_body(source.file.mesh, source.inspection), sides.maxCoeff()))
+  for (const auto& [label, value] :
+       body_lines(enclosed_body(source.file.mesh, source.inspection), sides.maxCoeff()))
     text += line(label, value);
   for (const auto& [key, value] : provenance_in(source.file)) text += line("map " + key, value);
   for (const std::string& note : source.notes) text += line("note", note);

@@ -7,6 +7,7 @@
 #include "arrays.h"
 #include "binding.h"
 #include "call.h"
+#include "records/body_record.h"
 #include "sphparam/io/certified_files.h"
 #include "sphparam/io/creases.h"
 #include "sphparam/io/fillers.h"
@@ -74,9 +75,29 @@ py::dict as_dict(const MeshInspection& found) {
   return dict;
 }
 
+py::tuple triple(const Vector3& v) { return py::make_tuple(v.x(), v.y(), v.z()); }
+
+py::tuple rows_of(const Eigen::Matrix3d& table) {
+  return py::make_tuple(triple(table.row(0)), triple(table.row(1)), triple(table.row(2)));
+}
+
+/// Centroid, inertia, principal moments and axes.
+py::object as_tuple(const std::optional<MassProperties>& body) {
+  if (!body) return py::none();
+  return py::make_tuple(triple(body->centroid), rows_of(body->inertia), triple(body->moments),
+                        rows_of(body->axes));
+}
+
 py::dict inspect(const Source& source) {
   const auto mesh = std::make_shared<const TriangleMesh>(source.mesh.file.mesh);
-  return as_dict(call(py::none(), [mesh](const Progress&) { return inspect_mesh(*mesh); }));
+  const auto [found, body] = call(py::none(), [mesh](const Progress&) {
+    MeshInspection inspection = inspect_mesh(*mesh);
+    const auto enclosed = enclosed_body(*mesh, inspection);
+    return std::pair(std::move(inspection), enclosed);
+  });
+  py::dict dict = as_dict(found);
+  dict["body"] = as_tuple(body);
+  return dict;
 }
 
 /// Returns what the format had no place for.

@@ -40,6 +40,7 @@ from ._errors import (
 from ._figures import (
     Action,
     BakedFile,
+    Body,
     Certificate,
     Deviation,
     Displacement,
@@ -77,6 +78,7 @@ __all__ = [
     "Asset",
     "BakedFile",
     "BakedImage",
+    "Body",
     "Cancelled",
     "Certificate",
     "Chart",

@@ -126,6 +126,19 @@ class Radial(NamedTuple):
     """Of a vertex, in radians."""
 
 
+class Body(NamedTuple):
+    """What a closed surface encloses, as a body of density 1 in units of the mesh."""
+
+    centroid: Tuple[float, float, float]
+    """Its centre of mass."""
+    inertia: Tuple[Tuple[float, float, float], ...]
+    """The tensor about the centroid, along the mesh's axes: ∫ (|r|² − r rᵀ) dV, three rows."""
+    principal_moments: Tuple[float, float, float]
+    """Its eigenvalues, ascending."""
+    principal_axes: Tuple[Tuple[float, float, float], ...]
+    """A row a principal axis, right-handed; the long one of the body first."""
+
+
 class Inspection(NamedTuple):
     """What a mesh is, and everything that is wrong with it."""
 
@@ -157,6 +170,8 @@ class Inspection(NamedTuple):
     """True for a closed genus-0 manifold: a map to the sphere exists."""
     defects: Tuple[Defect, ...]
     """All defects, fatal ones first."""
+    body: Optional[Body]
+    """Centroid, inertia and axes; None of what is open, or encloses next to nothing."""
 
 
 class Action(NamedTuple):

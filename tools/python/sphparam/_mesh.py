@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Dict, List, Mapping, NoReturn, Optional, 
 
 from . import _arrays, _core, _values
 from ._errors import Defect, MeshError, ReadError, WriteError, as_typed_here
-from ._figures import Action, HandleLoop, Inspection
+from ._figures import Action, Body, HandleLoop, Inspection
 from ._losses import tell
 from ._numpy import np
 from ._packages import parts_of
@@ -376,4 +376,6 @@ def inspect(mesh: Any, faces: Any = None) -> Inspection:
     """
     found = _core.inspect(any_mesh(mesh, faces)._source)
     found["defects"] = tuple(Defect(*row) for row in found["defects"])
+    if found["body"] is not None:
+        found["body"] = Body(*found["body"])
     return Inspection(**found)
