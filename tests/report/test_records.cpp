@@ -202,7 +202,8 @@ TEST_CASE("inspection_record: a mesh that cannot be mapped, and what would mend 
   const InspectionRecord record{.source = source, .repair = try_repair(source), .seconds = 2};
   const Json json = Json::parse(to_json(record));
   CHECK(keys_of(json) ==
-        "sphparam,command,input,inspection,fillers,repair,welded,provenance,notes,seconds");
+        "sphparam,command,input,inspection,crossings,fillers,cavities,repair,welded,provenance,"
+        "body,notes,seconds");
   CHECK(json["inspection"]["mappable"] == false);
   CHECK(json["inspection"]["boundary_loops"] == 1);
   CHECK(json["inspection"]["defects"][0]["kind"] == "boundary-edge");
@@ -224,7 +225,6 @@ TEST_CASE("inspection_record: a mesh that can be mapped needs nothing") {
              Catch::EndsWith("A closed genus-0 mesh: it can be mapped.\n"));
 }
 
-TEST_CASE("verification_record: where the rays are, what was proved, what is odd") {
 TEST_CASE("inspection_record: what a closed mesh encloses, as a body of density 1") {
   // An octahedron with corners a = 1, b = 2, c = 3 from (10, 0, 0): V = 4abc/3, ∫ x² = V a²/10.
   TriangleMesh mesh = octahedron();
@@ -256,6 +256,7 @@ TEST_CASE("inspection_record: what a closed mesh encloses, as a body of density 
   CHECK_THAT(to_text({.source = open}), !Contains("centroid"));
 }
 
+TEST_CASE("verification_record: where the rays are, what was proved, what is odd") {
   const TriangleMesh mesh = icosphere(2);
   VerifiedMap map;
   map.mesh = mesh;
