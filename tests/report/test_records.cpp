@@ -592,8 +592,8 @@ TEST_CASE("remesh_record: the finest level, and the others where there are sever
   };
   Json json = Json::parse(to_json(record_of()));
   CHECK(keys_of(json) ==
-        "sphparam,command,input,grid,sample,averaged_vertices,carried,certified,lods,outputs,"
-        "seconds");
+        "sphparam,command,input,grid,sample,averaged_vertices,carried,certified,in_space,warnings,"
+        "lods,outputs,seconds");
   CHECK(json["grid"]["vertices"] == 162);
   CHECK(json["lods"][1]["file"] == "low_1.ply");
   CHECK(json["lods"][1]["rms"] == levels[1].distance->rms);
