@@ -512,6 +512,23 @@ TEST_CASE("export: what comments say of the object goes into the extras, numbers
   CHECK(asset.warnings == Names{scalars_left_out});
 }
 
+TEST_CASE("export: vertices that lie on others, which readers of glTF weld, are told") {
+  const MappedMesh egg = mapped_egg(2);
+  MeshFile file = egg.file();
+  const auto told = [&] {
+    return make_asset(MappedMesh({.file = file, .map = egg.map(), .name = "egg.ply"}), small)
+        .warnings;
+  };
+  CHECK(told().empty());
+  Eigen::Index top = 0, bottom = 0;
+  file.mesh.positions.col(2).maxCoeff(&top);
+  file.mesh.positions.col(2).minCoeff(&bottom);
+  file.mesh.positions.row(top) = file.mesh.positions.row(bottom);
+  CHECK(told() ==
+        Names{"1 vertex lies exactly on another: who reads glTF as a closed surface welds them, we "
+              "too (the surface touches itself then); .ply keeps them apart"});
+}
+
 TEST_CASE("export: .obj and .ply have the object's comments, and .ply its numbers") {
   const Place place;
   CHECK(write_textured_mesh(place / "a.ply", scanned_egg(), small).warnings.empty());

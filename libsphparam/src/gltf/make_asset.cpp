@@ -14,6 +14,7 @@
 #include "sphparam/gltf/export.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/paths.h"
+#include "sphparam/io/shared_places.h"
 #include "sphparam/io/upright_frame.h"
 
 namespace sphparam {
@@ -108,6 +109,17 @@ void tell_facing(const MappedMesh& mapped, ShapeKind shape, std::vector<std::str
         "behind; --repair=orientation turns it over");
 }
 
+/// A chart has some vertices more than once, so that readers make those of a place one.
+void tell_shared_places(const MappedMesh& mapped, ShapeKind shape,
+                        std::vector<std::string>& warnings) {
+  if (shape != ShapeKind::Mesh) return;
+  const SharedPlaces shared = shared_places(mapped.mesh());
+  if (shared.vertices > 0)
+    warnings.push_back(words_of(shared) +
+                       ": who reads glTF as a closed surface welds them, we too (" +
+                       words_when_welded(shared) + "); .ply keeps them apart");
+}
+
 /// In one line.
 void tell_numbers_left_out(const MeshFile& file, std::vector<std::string>& warnings) {
   const std::vector<std::string> words = numbers_not_shown(file);
@@ -133,6 +145,7 @@ Asset without_levels(const MappedMesh& mapped, const Look& look, const ExportOpt
   add_comments(asset, mapped.file());
   tell_numbers_left_out(mapped.file(), asset.warnings);
   tell_facing(mapped, options.shape, asset.warnings);
+  tell_shared_places(mapped, options.shape, asset.warnings);
   return asset;
 }
 

@@ -16,6 +16,11 @@ struct SharedPlaces {
 /// Of the used vertices. Cost: O(#V), expected, and a sort of the edges.
 SharedPlaces shared_places(const TriangleMesh& mesh);
 
+/// "54 vertices lie exactly on others"; "27 edges with more than two faces then", of whoever makes
+/// those of a place one. Requires: there are some.
+std::string words_of(const SharedPlaces& shared);
+std::string words_when_welded(const SharedPlaces& shared);
+
 /// "54 vertices lie exactly on others …": what a format that keeps no numbers of vertices makes of
 /// the mesh as it was mended, and what to type; empty where repairs split nothing, or nothing that
 /// is there still.

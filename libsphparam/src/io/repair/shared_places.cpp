@@ -54,6 +54,17 @@ SharedPlaces shared_places(const TriangleMesh& mesh) {
   return shared;
 }
 
+std::string words_of(const SharedPlaces& shared) {
+  return counted(shared.vertices, "vertex lies exactly on another",
+                 "vertices lie exactly on others");
+}
+
+std::string words_when_welded(const SharedPlaces& shared) {
+  return shared.edges > 0
+             ? counted(shared.edges, "edge", "edges") + " with more than two faces then"
+             : "the surface touches itself then";
+}
+
 std::string shared_places_line(const MeshSource& mended) {
   const bool has_copies = std::ranges::any_of(mended.repairs, [](const RepairAction& repair) {
     return info_of(repair.kind).trait == RepairTrait::CopiesVertices;
@@ -61,13 +72,8 @@ std::string shared_places_line(const MeshSource& mended) {
   if (!has_copies) return "";
   const SharedPlaces shared = shared_places(mended.file.mesh);
   if (shared.vertices == 0) return "";
-  const std::string welded =
-      shared.edges > 0 ? counted(shared.edges, "edge", "edges") + " with more than two faces then"
-                       : "the surface touches itself then";
-  return counted(shared.vertices, "vertex lies exactly on another",
-                 "vertices lie exactly on others") +
-         ": .ply and .obj keep them apart, STL welds them (" + welded + "), and `sphparam wrap " +
-         shell_file(mended.path) +
+  return words_of(shared) + ": .ply and .obj keep them apart, STL welds them (" +
+         words_when_welded(shared) + "), and `sphparam wrap " + shell_file(mended.path) +
          " -o wrapped.ply` makes a surface without such, larger by its distance (by as little as "
          "you "
          "say with --gap LENGTH)";
