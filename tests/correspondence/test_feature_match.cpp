@@ -225,6 +225,28 @@ TEST_CASE("match by features: of surfaces that lie alike, places tell the turn")
   CHECK(match.warnings.empty());
 }
 
+TEST_CASE("match by features: that they pull apart what lies alike is told") {
+  const MappedMesh from = ball(4), to = ball(4);
+  const auto matched = [&](const MatchFeatures& features) {
+    return match_surfaces(from, to, {.alike = true, .features = features});
+  };
+  const Match far = matched(twisted_features(from, to, 20));
+  const Points &places = from.mesh().positions, &moved = far.map.from().map().points;
+  double mean = 0;
+  for (int c = 0; c < 3; ++c)
+    mean += places.col(c).dot(moved.col(c)) / (3 * places.col(c).norm() * moved.col(c).norm());
+  CHECK(far.place_agreement == Approx(mean).margin(0.005));
+  REQUIRE(far.warnings.size() == 1);
+  CHECK_THAT(far.warnings[0],
+             Catch::StartsWith("the features pulled apart what lies alike in space: places "
+                               "correlate by 0.9") &&
+                 Catch::Contains(", and by 1 after the turn that all began with: "));
+  const Functions same = values_at(to.mesh().positions, as_it_is);
+  const Match near = matched({same, same});
+  CHECK(near.place_agreement > 0.99);
+  CHECK(near.warnings.empty());
+}
+
 TEST_CASE("match by features: what says nothing is refused") {
   const MappedMesh from = ball(1), to = ball(1);
   const auto attempt = [&](MatchFeatures features, bool search = false) {

@@ -159,19 +159,19 @@ TriangleMesh unit_surface(const MappedMesh& mapped) {
   return {scaled_to_sphere(mapped.mesh()), mapped.mesh().triangles};
 }
 
-/// Correlation of each feature by a map.
-VectorX agreement_of(const MappedMesh& from, const TargetSurface& target, const FeatureField& field,
-                     const SphereMap& map) {
-  Functions there = Functions::Zero(field.from.rows(), field.from.cols());
+/// Correlation of each column by a map.
+VectorX agreement_of(const MappedMesh& from, const TargetSurface& target, const Functions& here,
+                     const Functions& values, const SphereMap& map) {
+  Functions there = Functions::Zero(here.rows(), here.cols());
   for (Vertex v = 0; v < there.rows(); ++v) {
     const Place place = target.place(map.point(v));
     for (int k = 0; k < 3; ++k)
-      there.row(v) += place.at.barycentric[k] * field.to.row(target.corner(place, k));
+      there.row(v) += place.at.barycentric[k] * values.row(target.corner(place, k));
   }
   const VectorX area = areas_round_vertices(from.surface());
   VectorX agreement(there.cols());
   for (Eigen::Index c = 0; c < there.cols(); ++c)
-    agreement[c] = correlation_of(field.from.col(c), there.col(c), area);
+    agreement[c] = correlation_of(here.col(c), there.col(c), area);
   return agreement;
 }
 
@@ -216,6 +216,7 @@ class FeatureMatching {
         improve_composition(from_.mesh(), from_.topology(), target_, map, options_, last_steps);
     const VectorX agreement = agreement_by(*result_.map);
     result_.agreement = agreement.mean();
+    if (alike) result_.place_agreement = place_agreement_by(*result_.map);
     if (by_landmarks) result_.begun_with = agreement;
     return std::move(result_);
   }
@@ -227,7 +228,13 @@ class FeatureMatching {
   }
 
   VectorX agreement_by(const SphereMap& map) const {
-    return agreement_of(from_, target_, options_.features->raw(), map);
+    const FeatureField& field = options_.features->raw();
+    return agreement_of(from_, target_, field.from, field.to, map);
+  }
+
+  /// Correlation of places in space, the mean over axes.
+  double place_agreement_by(const SphereMap& map) const {
+    return agreement_of(from_, target_, stance_of(from_.mesh()), stance_of(to_.mesh()), map).mean();
   }
 
   VectorX agreement_after(const Eigen::Matrix3d& rotation) {
@@ -245,6 +252,7 @@ class FeatureMatching {
   void start_by_stance() {
     const std::vector<TurnOfFunctions> turns = turns_by_stance(from_, to_, options_.threads);
     result_.begun_with = agreement_after(turns.front().rotation);
+    result_.places_begun_with = place_agreement_by(turned(from_.map(), turns.front().rotation));
     result_.confidence = start_alike(way_, from_.map(), turns);
   }
 

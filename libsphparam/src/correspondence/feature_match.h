@@ -15,6 +15,10 @@ struct FeatureMatch {
   double agreement = 0;           // correlation of the features by the map, the mean over columns
   double confidence = 1;          // in the turn that all begins with; 1 with landmarks
   VectorX begun_with = {};  // correlation of each column after the turn; with landmarks by the map
+  // Of surfaces that lie alike in space, the correlation of their places, the mean over axes: by
+  // the map, and after the turn; nothing with landmarks.
+  double place_agreement = 0;
+  std::optional<double> places_begun_with = {};
   double better_opposed = 0;  // how much greater it would be, at most, with one side's sign changed
 };
 

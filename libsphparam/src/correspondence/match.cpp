@@ -29,6 +29,7 @@ constexpr int all_starts = 3;                // of coarse levels, to take the be
 constexpr double collapsed = 0.01;           // of its share of the area: a triangle that is lost
 constexpr double telling_area = 1e-3;        // share of the surface that is lost: worth a word
 constexpr double telling_confidence = 0.15;  // less is worth a word
+constexpr double telling_parting = 0.02;     // less correlation of places by features: so, too
 constexpr double opposed_agreement = -0.2;   // correlation of a feature: worth a word,
 constexpr double telling_opposition = 0.1;   // as is so much more with the opposite sign
 
@@ -128,6 +129,18 @@ std::optional<std::string> opposed_signs(const FeatureMatch& found) {
   return std::nullopt;
 }
 
+/// Features that lead away from where surfaces that lie alike are by the mere turn.
+std::optional<std::string> parted_places(const FeatureMatch& found) {
+  if (!found.places_begun_with ||
+      found.place_agreement > *found.places_begun_with - telling_parting)
+    return std::nullopt;
+  return "the features pulled apart what lies alike in space: places correlate by " +
+         short_number(found.place_agreement) + ", and by " +
+         short_number(*found.places_begun_with) +
+         " after the turn that all began with: a smaller --feature-weight, other features or none "
+         "may do better";
+}
+
 /// One match on its way.
 class Matcher {
  public:
@@ -179,6 +192,8 @@ class Matcher {
         match_by_features(from_, to_, target_, composed_, *options_.features, options_.alike);
     if (!found.map) throw unreachable(found.residuals);
     agreement_ = found.agreement;
+    place_agreement_ = found.place_agreement;
+    warn(parted_places(found));
     warn(opposed_signs(found));
     tell_confidence(found.confidence, options_.alike ? "places in space agree after another turn"
                                                      : "the features agree after another turn");
@@ -241,7 +256,8 @@ class Matcher {
     warn(collapse_of(both, options_.threads));
     warn(collapse_of(both.inverse(), options_.threads));
     return {std::move(both),         energy,      made_by_,   std::move(residuals),
-            std::move(suggestions_), confidence_, agreement_, std::move(warnings_)};
+            std::move(suggestions_), confidence_, agreement_, place_agreement_,
+            std::move(warnings_)};
   }
 
   double energy_of(const SphereMap& map, const DistortionEnergy& density) const {
@@ -259,8 +275,9 @@ class Matcher {
   ComposedOptions composed_;
   std::string made_by_ = "coarse to fine";
   std::vector<SuggestedLandmarks> suggestions_;
-  double confidence_ = 1;  // in the first of them
-  double agreement_ = 0;   // of features
+  double confidence_ = 1;       // in the first of them
+  double agreement_ = 0;        // of features, …
+  double place_agreement_ = 0;  // … and of places beside them
   std::vector<std::string> warnings_;
 };
 

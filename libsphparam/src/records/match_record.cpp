@@ -57,10 +57,12 @@ Json search_json(const MatchRecord& record) {
 Json features_json(const MatchRecord& record) {
   const std::optional<MatchFeatures>& features = record.options.features;
   if (!features) return nullptr;
-  return {{"columns", features->from.cols()},
-          {"weight", features->weight},
-          {"correlation", record.match.agreement},
-          {"confidence", record.match.confidence}};
+  Json json{{"columns", features->from.cols()},
+            {"weight", features->weight},
+            {"correlation", record.match.agreement},
+            {"confidence", record.match.confidence}};
+  if (record.options.alike) json["place_agreement"] = record.match.place_agreement;
+  return json;
 }
 
 Json carried_json(const std::optional<CarriedFidelity>& carried) {
@@ -113,6 +115,8 @@ std::string to_text(const MatchRecord& record) {
     line += ", correlation of features " + short_number(record.match.agreement);
   if (record.options.features && landmarks == 0)
     line += " from a turn with confidence " + short_number(record.match.confidence);
+  if (record.options.features && record.options.alike)
+    line += ", of places " + short_number(record.match.place_agreement);
   line += words_of_search(record.match, record.options.search);
   return line + ", " + short_number(record.seconds) + " s";
 }
