@@ -173,6 +173,23 @@ TEST_CASE("spherical_harmonics: what vertices decide is found up to rounding, to
   CHECK(stopped.decided_degree.value() < 11);
 }
 
+TEST_CASE("spherical_harmonics: what has no harmonic of a degree is settled there, not open") {
+  const TriangleMesh sphere = icosphere(3);
+  Functions wanted = Functions::Zero(36, 2);
+  wanted(harmonic_index(5, -4), 0) = 1;  // odd about planes of the icosahedron's symmetry
+  wanted(harmonic_index(1, 0), 1) = 1;
+  for (const int degree : {0, 1, 2, 4, 5}) {
+    INFO(degree);
+    const HarmonicFit fit = fit_harmonics(Topology(sphere), map_of(sphere),
+                                          synthesise(wanted, sphere.positions), {.degree = degree});
+    CHECK(fit.converged);
+    CHECK_FALSE(fit.decided_degree);
+    CHECK(fit.iterations < 20);
+    const auto rows = fit.coefficients.rows();
+    CHECK((fit.coefficients - wanted.topRows(rows)).cwiseAbs().maxCoeff() < 1e-11);
+  }
+}
+
 TEST_CASE("spherical_harmonics: more coefficients than vertices leave something open") {
   const TriangleMesh sphere = icosphere(2);
   const HarmonicFit fit =

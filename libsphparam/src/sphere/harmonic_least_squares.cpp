@@ -18,6 +18,11 @@ int degree_of(Eigen::Index harmonics) {
   return static_cast<int>(std::lround(std::sqrt(static_cast<double>(harmonics)))) - 1;
 }
 
+/// By how much the sums of a function with all harmonics are off by rounding, of its own size.
+double rounding_of(Eigen::Index harmonics) {
+  return 4 * std::numeric_limits<double>::epsilon() * std::sqrt(static_cast<double>(harmonics));
+}
+
 }  // namespace
 
 Functions HarmonicLeastSquares::transposed(const Functions& values, Eigen::Index harmonics) const {
@@ -28,6 +33,13 @@ Eigen::ArrayXd HarmonicLeastSquares::weighted_squares(const Functions& values) c
   return (weights_.transpose() * values.cwiseAbs2()).transpose();
 }
 
+Eigen::ArrayXd HarmonicLeastSquares::enough(Eigen::Index harmonics) const {
+  const double share = options_.tolerance, rounding = rounding_of(harmonics);
+  const Eigen::ArrayXd wanted =
+      share * share * transposed(values_, harmonics).colwise().squaredNorm();
+  return wanted.max(rounding * rounding * weighted_squares(values_));
+}
+
 HarmonicLeastSquares::End HarmonicLeastSquares::solve(Functions& coefficients) const {
   return solve(coefficients, worth_taking);
 }
@@ -35,12 +47,11 @@ HarmonicLeastSquares::End HarmonicLeastSquares::solve(Functions& coefficients) c
 HarmonicLeastSquares::End HarmonicLeastSquares::solve(Functions& coefficients, double worth) const {
   using Mask = Eigen::Array<bool, Eigen::Dynamic, 1>;
   const Eigen::Index harmonics = coefficients.rows();
-  const Eigen::ArrayXd enough = options_.tolerance * options_.tolerance *
-                                transposed(values_, harmonics).colwise().squaredNorm();
+  const Eigen::ArrayXd settled = enough(harmonics);
   Functions left = values_ - synthesise(coefficients, directions_, options_.threads);
   Functions gradient = transposed(left, harmonics), direction = gradient;
   Eigen::ArrayXd squared = gradient.colwise().squaredNorm();
-  Mask goes_on = squared > enough;
+  Mask goes_on = squared > settled;
   bool is_open = false;
   int iteration = 0;
   for (; iteration < options_.most_iterations && goes_on.any(); ++iteration) {
@@ -61,7 +72,7 @@ HarmonicLeastSquares::End HarmonicLeastSquares::solve(Functions& coefficients, d
     const Eigen::ArrayXd next = gradient.colwise().squaredNorm();
     const VectorX keep = goes_on.select(next / squared, 0.0).matrix();
     direction = gradient + direction * keep.asDiagonal();
-    goes_on = goes_on && next > enough;
+    goes_on = goes_on && next > settled;
     squared = next;
   }
   return {iteration, !is_open && !goes_on.any()};

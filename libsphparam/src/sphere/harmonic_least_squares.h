@@ -21,7 +21,7 @@ class HarmonicLeastSquares {
 
   struct End {
     int iterations;
-    bool converged;  // to the tolerance, all functions
+    bool converged;  // to the tolerance, or to rounding, all functions
   };
   /// From these coefficients, of any degree.
   End solve(Functions& coefficients) const;
@@ -34,6 +34,9 @@ class HarmonicLeastSquares {
   End solve(Functions& coefficients, double worth) const;
   Functions transposed(const Functions& values, Eigen::Index harmonics) const;
   Eigen::ArrayXd weighted_squares(const Functions& values) const;
+  /// Squares of the gradient with which a function is settled: of its sums with the harmonics, but
+  /// where it is none of these, rounding of the function itself.
+  Eigen::ArrayXd enough(Eigen::Index harmonics) const;
 
   const Points& directions_;
   const VectorX& weights_;
