@@ -250,6 +250,9 @@ TEST_CASE("inspection_record: what a closed mesh encloses, as a body of density 
       to_text({.source = source}),
       Contains("\n  centroid      (10, 0, 0)\n  inertia       4, 8, 10.4 about the centroid, "
                "at density 1, along (0, 0, 1), (0, 1, 0), (-1, 0, 0)\n"));
+  TriangleMesh crooked = mesh;
+  crooked.triangles.row(0).reverseInPlace();  // it would count from outside
+  CHECK(Json::parse(to_json(InspectionRecord{.source = source_of(crooked)}))["body"].is_null());
   mesh.triangles.conservativeResize(7, 3);
   const MeshSource open = source_of(mesh);
   CHECK(Json::parse(to_json(InspectionRecord{.source = open}))["body"].is_null());

@@ -1,6 +1,7 @@
 #include "records/body_record.h"
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "number_text.h"
@@ -11,9 +12,13 @@ namespace {
 
 constexpr int figure_digits = 6;
 
+/// With which nothing is enclosed: sums over the faces would depend on where they are taken from.
+constexpr std::array unsound = {
+    DefectKind::Empty,        DefectKind::IndexOutOfRange, DefectKind::NonFinitePosition,
+    DefectKind::BoundaryEdge, DefectKind::NonManifoldEdge, DefectKind::InconsistentOrientation};
+
 bool is_sound(const MeshDefect& defect) {
-  return defect.kind != DefectKind::Empty && defect.kind != DefectKind::IndexOutOfRange &&
-         defect.kind != DefectKind::NonFinitePosition;
+  return std::ranges::find(unsound, defect.kind) == unsound.end();
 }
 
 std::string list_of(const Vector3& numbers) {
@@ -27,8 +32,7 @@ std::string direction(const Vector3& axis) { return "(" + place_text(axis, 1) + 
 
 std::optional<MassProperties> enclosed_body(const TriangleMesh& mesh,
                                             const MeshInspection& inspection) {
-  if (inspection.boundary_loops > 0 || !std::ranges::all_of(inspection.defects, is_sound))
-    return std::nullopt;
+  if (!std::ranges::all_of(inspection.defects, is_sound)) return std::nullopt;
   return mass_properties(mesh);
 }
 

@@ -10,7 +10,8 @@
 
 namespace sphparam {
 
-/// What a closed mesh encloses; nothing of an open one, or one whose faces or numbers are none.
+/// What a closed mesh encloses; nothing of an open one, of one whose faces or numbers are none, or
+/// whose faces do not look the same way at an edge.
 std::optional<MassProperties> enclosed_body(const TriangleMesh& mesh,
                                             const MeshInspection& inspection);
 
