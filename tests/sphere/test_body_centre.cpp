@@ -58,3 +58,23 @@ TEST_CASE("body centre: one outside is told with the centroid, one inside is not
         "the centre 2,2.5,0 lies outside of the surface: --centre centroid is 1,1,1, that of what "
         "it encloses");
 }
+
+TEST_CASE("body centre: a centroid that is outside itself is not recommended") {
+  // An L, with arms 9 long and 1 thick.
+  TriangleMesh mesh;
+  mesh.positions.resize(12, 3);
+  mesh.positions << 0, 0, 0, 9, 0, 0, 9, 1, 0, 1, 1, 0, 1, 9, 0, 0, 9, 0,  //
+      0, 0, 1, 9, 0, 1, 9, 1, 1, 1, 1, 1, 1, 9, 1, 0, 9, 1;
+  mesh.triangles.resize(20, 3);
+  mesh.triangles << 3, 2, 1, 3, 1, 0, 3, 0, 5, 3, 5, 4,  //
+      9, 7, 8, 9, 6, 7, 9, 11, 6, 9, 10, 11,             //
+      0, 1, 7, 0, 7, 6, 1, 2, 8, 1, 8, 7, 2, 3, 9, 2, 9, 8, 3, 4, 10, 3, 10, 9, 4, 5, 11, 4, 11, 10,
+      5, 0, 6, 5, 6, 11;
+  const Vector3 centroid(89.0 / 34, 89.0 / 34, 0.5);  // of 9 at (4.5, 0.5) and 8 at (0.5, 5)
+  CHECK((enclosed_centroid(mesh) - centroid).norm() < 1e-14);
+  CHECK(winds_about(mesh, {0.5, 0.5, 0.5}));
+  CHECK(line_of_outside(mesh, centroid) ==
+        "the centre 2.61765,2.61765,0.5 lies outside of the surface, as the centroid of what it "
+        "encloses "
+        "does");
+}

@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "mesh/box.h"
-#include "mesh/flat_face.h"
 #include "number_text.h"
 #include "sphere/solid_angle.h"
+#include "sphparam/mesh/mass_properties.h"
 
 namespace sphparam {
 namespace {
@@ -27,22 +27,10 @@ std::string typed(const Vector3& point) {
 }  // namespace
 
 Vector3 enclosed_centroid(const TriangleMesh& mesh) {
-  constexpr double next_to_nothing = 1e-9;
+  if (const auto body = mass_properties(mesh)) return body->centroid;
   const Vector3 lower = box_of(mesh.positions).lower;
   const double side = longest_side(mesh), size = side > 0 ? side : 1;
-  const Vector3 mean = seen_from(mesh, lower).colwise().mean().transpose() * size + lower;
-  if (!(std::abs(enclosed(mesh)) > next_to_nothing)) return mean;
-  const Points corners = seen_from(mesh, mean);
-  double volume = 0;
-  Vector3 moment = Vector3::Zero();
-  for (Face f = 0; f < mesh.face_count(); ++f) {
-    const Vector3 a = corners.row(mesh.triangles(f, 0)), b = corners.row(mesh.triangles(f, 1)),
-                  c = corners.row(mesh.triangles(f, 2));
-    const double sixfold = a.dot(b.cross(c));
-    volume += sixfold;
-    moment += sixfold / 4 * (a + b + c);
-  }
-  return mean + moment / volume * size;
+  return seen_from(mesh, lower).colwise().mean().transpose() * size + lower;
 }
 
 bool winds_about(const TriangleMesh& mesh, const Vector3& point) {
@@ -59,8 +47,10 @@ bool winds_about(const TriangleMesh& mesh, const Vector3& point) {
 
 std::string line_of_outside(const TriangleMesh& mesh, const Vector3& centre) {
   if (winds_about(mesh, centre)) return "";
-  return "the centre " + typed(centre) + " lies outside of the surface: --centre centroid is " +
-         typed(enclosed_centroid(mesh)) + ", that of what it encloses";
+  const std::string told = "the centre " + typed(centre) + " lies outside of the surface";
+  const Vector3 centroid = enclosed_centroid(mesh);
+  if (!winds_about(mesh, centroid)) return told + ", as the centroid of what it encloses does";
+  return told + ": --centre centroid is " + typed(centroid) + ", that of what it encloses";
 }
 
 }  // namespace sphparam
