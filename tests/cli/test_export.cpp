@@ -6,6 +6,7 @@
 #include "io/polygons/welding.h"
 #include "program.h"
 #include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/mesh_writer.h"
 #include "support/glb_json.h"
 #include "support/joined.h"
 #include "support/test_meshes.h"
@@ -234,6 +235,37 @@ TEST_CASE("export: --scale is of all lengths, and without it what is too long fo
   const Ended apart = sphparam_program(
       {"measure", folder / "ball.glb", folder / "small.obj", "--samples", "1000", "--json", "-"});
   CHECK(Json::parse(apart.out)["two_sided"]["max"] < 1e-7);
+}
+
+TEST_CASE("export: --scalar is seen as colours, which is told, and what it may not go with") {
+  Egg egg;
+  MeshFile file;
+  file.mesh = icosphere(1);
+  Property height{"height", ScalarType::Float64, {}};
+  for (const double z : file.mesh.positions.col(2)) height.values.push_back(z);
+  file.set_vertex_property(height);
+  egg.mesh = egg.folder / "ball.ply";
+  write_mesh(egg.mesh, file);
+  const Ended bare = egg.run("bare.glb");
+  CHECK_THAT(bare.err, Contains("a number of its vertices is seen as colours with --scalar NAME"));
+  CHECK(json_of(bytes_of(egg.folder / "bare.glb"))["materials"][0]["name"] == "checker");
+  const Ended seen = egg.run("seen.glb", {"--scalar", "height", "--range", "-2,2"});
+  INFO(seen.err);
+  REQUIRE(seen.code == 0);
+  CHECK_THAT(seen.err, Contains("colours of height: from -2 (blue) by 0 (white) to 2 (red)") &&
+                           !Contains("with --scalar NAME"));
+  const Json gltf = json_of(bytes_of(egg.folder / "seen.glb"));
+  CHECK(gltf["meshes"][0]["primitives"][0]["attributes"].contains("COLOR_0"));
+  CHECK_THAT(gltf["asset"]["extras"]["sphparam"]["comments"].get<std::string>(),
+             Contains("colours of height: from -2"));
+  const auto refused = [&](const Names& words, const char* why) {
+    const Ended ended = egg.run("x.glb", words);
+    CHECK(ended.code == 2);
+    CHECK_THAT(ended.err, Contains(why));
+  };
+  refused({"--scalar", "depth"}, "--scalar: vertices have no 'depth'; there are height");
+  refused({"--range", "0,1"}, "--range is the scale of --scalar");
+  refused({"--scalar", "height", "--images", egg.folder / "."}, "leave out --image and --images");
 }
 
 TEST_CASE("export: parts get the images that bake made of each in one folder") {

@@ -287,6 +287,8 @@ TEST_CASE("match: features come to lie on each other, from files and from proper
   INFO(alike.err);
   REQUIRE(alike.code == 0);
   CHECK(Json::parse(alike.out)["features"]["correlation"] > 0.9);
+  CHECK(Json::parse(alike.out)["features"]["place_agreement"] > 0.9);
+  CHECK_FALSE(report["features"].contains("place_agreement"));
 
   const Ended nothing = match(one + ",tow", carried);
   CHECK(nothing.code == 3);
