@@ -98,8 +98,8 @@ const std::map<std::string, std::set<std::string>> below{
      {"compare", "correspondence", "group", "wrap", "gltf", "bake", "remesh", "measure", "io",
       "chart", "baselines", "sphere", "mesh"}},
     {"asset",
-     {"records", "report", "gltf", "bake", "wrap", "render", "rays", "texture", "io", "chart",
-      "sphere", "mesh"}},
+     {"records", "report", "gltf", "bake", "wrap", "remesh", "render", "rays", "texture", "io",
+      "chart", "sphere", "mesh"}},
     {"batch", {"report", "render", "io", "mesh"}},
     {"survey", {"batch", "records", "report", "render", "io", "mesh"}}};
 
