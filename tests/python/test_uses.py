@@ -603,6 +603,17 @@ def test_growth_is_of_faces_and_of_what_is_about_vertices(mapped):
         sp.growth((V, F), (V, F[1:]))
 
 
+def test_faces_that_cross_are_counted_and_named():
+    clean = sp.self_crossings(V, F)
+    assert clean.pairs == 0 and clean.first is None and clean.place is None
+    assert clean.marks.shape == (len(F),) and not clean.marks.any()
+    corner = 4.0 * np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    sides = np.array([[0, 2, 1], [0, 3, 2], [0, 1, 3], [1, 2, 3]])
+    found = sp.self_crossings(np.vstack([corner, corner + 1]), np.vstack([sides, sides + 4]), threads=1)
+    assert found.pairs == 3 and found.first == (3, 4) and found.place == (2.5, 2.5, 1)
+    assert found.marks.tolist() == [False, False, False, True, True, True, True, False]
+
+
 def test_aligned_harmonics_do_not_depend_on_how_the_mesh_lies(mapped):
     quarter = np.array([[0, 1, 0], [-1, 0, 0], [0, 0, 1]])
     turned = sp.with_sphere((7 + mapped.vertices @ quarter, F), mapped.points)

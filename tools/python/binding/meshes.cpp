@@ -16,6 +16,7 @@
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/io/sphere_file.h"
+#include "sphparam/mesh/self_crossings.h"
 
 namespace sphparam::python {
 namespace {
@@ -98,6 +99,18 @@ py::dict inspect(const Source& source) {
   py::dict dict = as_dict(found);
   dict["body"] = as_tuple(body);
   return dict;
+}
+
+/// Pairs, a mark a face, the first two faces and where they cross.
+py::tuple self_crossings(const Source& source, int threads, const py::object& progress) {
+  const auto mesh = std::make_shared<const TriangleMesh>(source.mesh.file.mesh);
+  SelfCrossings found = call(progress, [mesh, threads](const Progress& report) {
+    return find_self_crossings(*mesh, {.threads = threads, .progress = report});
+  });
+  found.marks.resize(static_cast<std::size_t>(mesh->face_count()));  // none: no face does
+  return py::make_tuple(found.pairs, owning(std::move(found.marks)),
+                        py::make_tuple(found.first[0], found.first[1]),
+                        py::make_tuple(found.place.x(), found.place.y(), found.place.z()));
 }
 
 /// Returns what the format had no place for.
@@ -239,6 +252,7 @@ void declare_meshes(py::module_& module) {
   module.def("surface", surface);
   module.def("creased", creased);
   module.def("inspect", inspect);
+  module.def("self_crossings", self_crossings);
   module.def("readable_formats", [] { return readable_formats(); });
   module.def("written_extensions", [] { return written_extensions(); });
 }

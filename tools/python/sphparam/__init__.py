@@ -53,6 +53,7 @@ from ._figures import (
     Landmarks,
     OneSided,
     Radial,
+    SelfCrossings,
     Stage,
 )
 from ._group import Group, group
@@ -60,7 +61,7 @@ from ._map import load, map, remeshing_lambda, verify, with_sphere
 from ._map_images import fields
 from ._match import SurfaceMap, match
 from ._measure import growth, measure
-from ._mesh import Mesh, inspect, read, write
+from ._mesh import Mesh, inspect, read, self_crossings, write
 from ._repair import components, repair
 from ._sphere_map import SphereMap
 from ._wrap import Wrap, wrap
@@ -103,6 +104,7 @@ __all__ = [
     "Projection",
     "Radial",
     "ReadError",
+    "SelfCrossings",
     "SolveError",
     "SphereMap",
     "Stage",
@@ -124,6 +126,7 @@ __all__ = [
     "read_harmonics",
     "remeshing_lambda",
     "repair",
+    "self_crossings",
     "verify",
     "with_sphere",
     "wrap",

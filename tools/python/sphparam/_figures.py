@@ -333,4 +333,17 @@ class Displacement(NamedTuple):
     """RMS distance of surface and image together."""
 
 
+class SelfCrossings(NamedTuple):
+    """Where a surface crosses itself in space."""
+
+    pairs: int
+    """Number of pairs of faces that cross; 0 is a proof that none do."""
+    marks: npt.NDArray[np.bool_]
+    """(F,) True where a face crosses another."""
+    first: Optional[Tuple[int, int]]
+    """The first face that does, and the first that it crosses; None without any."""
+    place: Optional[Tuple[float, float, float]]
+    """Where these two are."""
+
+
 document(globals())

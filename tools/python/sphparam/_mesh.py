@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, Any, Dict, List, Mapping, NoReturn, Optional, 
 
 from . import _arrays, _core, _values
 from ._errors import Defect, MeshError, ReadError, WriteError, as_typed_here
-from ._figures import Action, Body, HandleLoop, Inspection
+from ._figures import Action, Body, HandleLoop, Inspection, SelfCrossings
 from ._losses import tell
 from ._numpy import np
 from ._packages import parts_of
+from ._progress import Progress, told
 
 if TYPE_CHECKING:
     import numpy
@@ -379,3 +380,25 @@ def inspect(mesh: Any, faces: Any = None) -> Inspection:
     if found["body"] is not None:
         found["body"] = Body(*found["body"])
     return Inspection(**found)
+
+
+def self_crossings(mesh: Any, faces: Any = None, *, threads: int = 0, progress: Progress = None) -> SelfCrossings:
+    """The pairs of faces of a mesh that cross in space, by exact signs: that pass through one another, or
+    lie over one another in a plane, also beside a corner or a side that they share. What only touches does
+    not count, nor do faces without area.
+
+    ``mesh`` and ``faces`` are as :func:`inspect` takes them. A map is one-to-one whether or not its mesh
+    crosses itself, and the flat faces of a remesh may cross where the map is one-to-one. A fold that is open by
+    the rounding of a coordinate is none.
+
+    Parameters
+    ----------
+    threads
+        0: all cores; changes no bit.
+    progress
+        ``progress(stage, share)``; False ends the work. True: a line.
+    """
+    with told(progress) as report:
+        pairs, marks, first, place = _core.self_crossings(any_mesh(mesh, faces)._source, threads, report)
+    found = _values.read_only(marks.view(bool))
+    return SelfCrossings(pairs, found, first if pairs else None, place if pairs else None)
