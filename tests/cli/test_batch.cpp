@@ -502,9 +502,9 @@ TEST_CASE("batch: a mesh that was repaired is told in the table, the page and th
              Contains("of the done: 2 certified one-to-one, 1 repaired\n"));
   REQUIRE(shapes.batch("table", {"-o", shapes.folder / "t.csv"}).code == 0);
   const std::string table = bytes_of(shapes.folder / "t.csv");
-  CHECK_THAT(table, Contains("id,path,outcome,code,reason,attempt,repairs,warnings,"));
-  CHECK_THAT(table, Contains("open.obj,certified,0,,1,hole-filled 1,0,") &&
-                        Contains("ball0.obj,certified,0,,1,,0,"));
+  CHECK_THAT(table, Contains("id,path,outcome,code,step,reason,attempt,repairs,warnings,"));
+  CHECK_THAT(table, Contains("open.obj,certified,0,,,1,hole-filled 1,0,") &&
+                        Contains("ball0.obj,certified,0,,,1,,0,"));
   REQUIRE(shapes.batch("report", {"-o", shapes.folder / "all.html"}).code == 0);
   CHECK_THAT(bytes_of(shapes.folder / "all.html"), Contains("\"hole-filled 1\",[]]"));
 }
@@ -524,8 +524,8 @@ TEST_CASE("batch: what steps warn of is told in the table, the page and the stat
   CHECK_THAT(shapes.batch("status").out,
              Contains("of the done: 2 certified one-to-one, 1 with warnings\n"));
   const std::string table = shapes.batch("table", {"-o", "-", "-q"}).out;
-  CHECK_THAT(table,
-             Contains("turned.obj,certified,0,,1,,1,") && Contains("ball0.obj,certified,0,,1,,0,"));
+  CHECK_THAT(table, Contains("turned.obj,certified,0,,,1,,1,") &&
+                        Contains("ball0.obj,certified,0,,,1,,0,"));
   REQUIRE(shapes.batch("report", {"-o", shapes.folder / "all.html"}).code == 0);
   CHECK_THAT(bytes_of(shapes.folder / "all.html"), Contains("inside out"));
 }
