@@ -110,6 +110,7 @@ TEST_CASE("whole surface: a sphere is itself, one with holes is mended, a soup i
       wrapped.done.front() ==
       "a skin is drawn around it, 0.313 % of its size away; gaps narrower than 6.25 % are closed");
   CHECK(wrapped.details.size() > wrapped.done.size() + wrapped.found.size());
+  CHECK_THAT(wrapped.details.back(), Catch::Contains(" others of the wrap"));
   CHECK(wrapped.mapped.mesh().face_count() <= 2000);
   CHECK(wrapped.mapped.certificate().bijective());
   CHECK(wrapped.mapped.mesh().positions.col(0).maxCoeff() > 2);

@@ -180,6 +180,9 @@ class Chooser {
     bare.mesh = file.mesh;
     done_ = plain_words(wrap, longest_side(file.mesh));
     std::ranges::copy(to_lines(WrapRecord{asset_.path, bare, wrap}), std::back_inserter(details_));
+    if (const auto crossings = crossings_of(wrap, options_.threads); crossings)
+      details_.push_back(counted(crossings->faces, "triangle crosses", "triangles cross") +
+                         " others of the wrap");
     MeshSource source;
     source.path = asset_.path;
     source.file.mesh = wrap.mesh;

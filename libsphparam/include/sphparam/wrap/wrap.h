@@ -19,7 +19,7 @@ struct WrapOptions {
   /// Of the surface from the soup; a voxel at least. 0: two voxels.
   double distance = 0;
   /// What is left of the distance when the surface is drawn in at last. It may then cut into the
-  /// soup, by less than a voxel, and itself. 0: all of it.
+  /// soup, by less than a voxel, and itself, which `find_self_crossings` counts. 0: all of it.
   double gap = 0;
   /// Of shells that are apart the one with the largest volume is kept; else all are joined.
   bool largest = false;
