@@ -183,6 +183,13 @@ TEST_CASE("wrap: drawn in to the gap, where no wall is") {
                   std::invalid_argument);
 }
 
+TEST_CASE("wrap: drawn in to a level plate, no vertex comes to lie on it") {
+  TriangleMesh plate = sheet();
+  plate.positions << 0, 0, 0, 4, 0, 0, 4, 4, 0, 0, 4, 0;
+  const Wrap wrap = wrap_soup(plate, {.voxel = 0.25, .gap = 0.01});
+  CHECK(wrap.apart.forth.at_vertices.minCoeff() > 0.5 * wrap.gap);
+}
+
 TEST_CASE("wrap: drawn in, corners stay corners, to less than a voxel") {
   TriangleMesh box = cube();
   const Wrap wrap = wrap_soup(box, {.voxel = 0.05 * box.positions.maxCoeff(), .gap = 1e-3});

@@ -125,11 +125,12 @@ class Drawer {
     return sums;
   }
 
-  /// At the gap from where the soup is nearest to a place, on the side that the vertex was on.
+  /// At the gap from where the soup is nearest to a place, on the side that the vertex was on; of a
+  /// place on the soup, as beside the rim of a sheet, the way out is the one before.
   void settle(Vertex v, const Vector3& place) {
     const Vector3 away = from_soup(place);
     const double side = away.dot(outward(v)) < 0 ? -1 : 1;
-    outward_.row(v) = side * away.stableNormalized();
+    if (!away.isZero(0)) outward_.row(v) = side * away.stableNormalized();
     wrap_.positions.row(v) = place - away + how_.gap * outward(v);
   }
 

@@ -13,10 +13,10 @@ struct DrawIn {
   Progress progress = {};
 };
 
-/// Moves the vertices of a wrap that lie at the distance from the soup towards their nearest points
-/// of it, until the gap is left. What is farther away, walls and bridges, stays; what leads there
-/// goes part of the way. Ensures: the triangles name the same vertices; the same places for any
-/// number of threads. Cost: a nearest point a vertex, some more where sides meet at an angle.
+/// Moves the vertices of a wrap that lie at the distance from the soup along their normals, until
+/// the gap is left. What is farther away, walls and bridges, stays; what leads there goes part of
+/// the way. Ensures: the triangles name the same vertices; the same places for any number of
+/// threads. Cost: a few nearest points a vertex, a dozen where sides meet at an angle.
 void draw_in(TriangleMesh& wrap, const TriangleMesh& soup, const DrawIn& how);
 
 }  // namespace sphparam
