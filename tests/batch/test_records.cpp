@@ -94,6 +94,16 @@ TEST_CASE("record: warnings are those of all steps, each once, and no other line
   CHECK(warnings_in("").empty());
 }
 
+TEST_CASE("record: a step is named where there are several, also one that somebody else wrote") {
+  BatchPlan plan;
+  plan.steps = {{"map", "{input}"}};
+  CHECK(words_of_step("1 map", plan).empty());
+  plan.steps.push_back({"measure", "{input}"});
+  CHECK(words_of_step("2 measure", plan) == "step 2, measure: ");
+  CHECK(words_of_step("", plan).empty());
+  CHECK(words_of_step("2", plan) == "step 2: ");
+}
+
 TEST_CASE("hash: what xxh128sum prints") {
   CHECK(content_hash("") == "99aa06d3014798d86001c324468d497f");
 }

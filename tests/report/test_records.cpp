@@ -253,6 +253,9 @@ TEST_CASE("inspection_record: what a closed mesh encloses, as a body of density 
   TriangleMesh crooked = mesh;
   crooked.triangles.row(0).reverseInPlace();  // it would count from outside
   CHECK(Json::parse(to_json(InspectionRecord{.source = source_of(crooked)}))["body"].is_null());
+  TriangleMesh huge = mesh;
+  huge.positions *= 1e80;  // moments are fifth powers
+  CHECK(Json::parse(to_json(InspectionRecord{.source = source_of(huge)}))["body"].is_null());
   mesh.triangles.conservativeResize(7, 3);
   const MeshSource open = source_of(mesh);
   CHECK(Json::parse(to_json(InspectionRecord{.source = open}))["body"].is_null());

@@ -261,8 +261,9 @@ bool is_repaired(const std::string& repairs) { return !repairs.empty() && repair
 
 std::string words_of_step(const std::string& step, const BatchPlan& plan) {
   if (step.empty() || plan.steps.size() < 2) return "";
-  const std::size_t blank = step.find(' ');
-  return "step " + step.substr(0, blank) + "," + step.substr(blank) + ": ";
+  const std::size_t blank = std::min(step.find(' '), step.size());
+  const std::string command = blank < step.size() ? "," + step.substr(blank) : "";
+  return "step " + step.substr(0, blank) + command + ": ";
 }
 
 std::string without_folders(std::string reason, const BatchItem& item) {

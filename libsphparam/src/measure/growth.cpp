@@ -3,16 +3,17 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "mesh/triangle_geometry.h"
+
 namespace sphparam {
 namespace {
 
 VectorX face_areas(const TriangleMesh& mesh) {
   VectorX areas(mesh.face_count());
-  for (Face f = 0; f < mesh.face_count(); ++f) {
-    const Vector3 a = mesh.position(mesh.triangles(f, 0));
-    const Vector3 b = mesh.position(mesh.triangles(f, 1)), c = mesh.position(mesh.triangles(f, 2));
-    areas[f] = (b - a).cross(c - a).norm() / 2;
-  }
+  for (Face f = 0; f < mesh.face_count(); ++f)
+    areas[f] =
+        triangle_area(mesh.position(mesh.triangles(f, 0)), mesh.position(mesh.triangles(f, 1)),
+                      mesh.position(mesh.triangles(f, 2)));
   return areas;
 }
 

@@ -33,7 +33,8 @@ std::string direction(const Vector3& axis) { return "(" + place_text(axis, 1) + 
 std::optional<MassProperties> enclosed_body(const TriangleMesh& mesh,
                                             const MeshInspection& inspection) {
   if (!std::ranges::all_of(inspection.defects, is_sound)) return std::nullopt;
-  return mass_properties(mesh);
+  const std::optional<MassProperties> body = mass_properties(mesh);
+  return body && body->inertia.allFinite() ? body : std::nullopt;
 }
 
 Json body_json(const std::optional<MassProperties>& body) {

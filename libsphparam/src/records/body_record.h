@@ -11,7 +11,7 @@
 namespace sphparam {
 
 /// What a closed mesh encloses; nothing of an open one, of one whose faces or numbers are none, or
-/// whose faces do not look the same way at an edge.
+/// whose faces do not look the same way at an edge, or whose moments doubles do not hold.
 std::optional<MassProperties> enclosed_body(const TriangleMesh& mesh,
                                             const MeshInspection& inspection);
 
