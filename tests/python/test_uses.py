@@ -576,9 +576,14 @@ def test_harmonics_are_a_surface_on_any_grid_and_files(mapped, tmp_path):
         shape.surface("ball")
     with pytest.raises(sp.ReadError, match="no coefficients"):
         sp.read_harmonics(tmp_path / "a.sph.ply")
-    shape.coefficients = shape.coefficients[:, :3]
+    whole = shape.coefficients
+    shape.coefficients = whole[:, :3]
     with pytest.raises(ValueError, match="coefficients: 4 columns are needed"):
         shape.surface("ico:2")
+    shape.coefficients = whole[:5]
+    for name in ("few.json", "few.csv", "few.coef"):
+        with pytest.raises(ValueError, match="5 coefficients are no"):
+            shape.save(tmp_path / name)
 
 
 def test_distances_are_over_what_is_asked_for(mapped, tmp_path):

@@ -212,6 +212,7 @@ HarmonicExpansion with_coefficients(const Expansion& expansion,
   if (table.cols() != before.cols())
     throw py::value_error("coefficients: " + std::to_string(before.cols()) +
                           " columns are needed, one a function");
+  power_per_degree(table);  // which throws unless there are (L + 1)² rows
   if (table.rows() == before.rows() && table == before) return harmonics;
   harmonics.fit = {.coefficients = std::move(table), .rms = {}};
   harmonics.values.resize(0, harmonics.fit.coefficients.cols());

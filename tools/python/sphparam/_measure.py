@@ -44,7 +44,7 @@ def measure(
     first, second
         Meshes as :class:`Mesh` takes them, a pair of arrays among them, or maps.
     samples
-        On the faces of each, from 1.
+        On the faces of each, from 1, and as many on its edges where ``over`` has these.
     over
         What mean and RMS are over: ``"faces"``, ``"edges"``, ``"vertices"`` or several of these; MeshLab's filter takes all three.
     extremes
