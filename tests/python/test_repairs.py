@@ -149,6 +149,17 @@ def test_notes_say_what_is_typed_here():
         assert len(sp.map(torn, faces, repair=options).vertices) == len(V)
 
 
+def test_a_centre_outside_says_what_is_typed_here(tmp_path):
+    away = sp.map(V + [0, 0, 9.0], F, quality="draft")
+    with pytest.warns(sp.LossWarning, match=r"outside of the surface: centre=inspect\(m\)\.body\.centroid is "):
+        away.bake_files({"radius": tmp_path / "r.png"}, size=16)
+    with pytest.warns(sp.LossWarning, match=r': bake\("radius", centre=inspect\(m\)\.body\.centroid\) is the distance'):
+        away.bake_files({"height": tmp_path / "h.png"}, size=16)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        away.bake_files({"radius": tmp_path / "r.png"}, size=16, centre=sp.inspect(away).body.centroid)
+
+
 @pytest.mark.filterwarnings("ignore::sphparam.LossWarning")
 def test_a_match_with_a_surface_inside_out_says_what_turns_it():
     there, turned = sp.map(V, F, quality="draft"), sp.map(V, F[:, ::-1], quality="draft")
