@@ -23,6 +23,7 @@ namespace {
 constexpr double strays = 0.5, wall_begins = 1.5;
 constexpr double farthest = 1.5;      // distances that a vertex goes: into a right angle
 constexpr double close = 1.05;        // gaps, at which a vertex is there
+constexpr double on_soup = 1e-6;      // gaps, up to rounding
 constexpr double least_cosine = 0.2;  // between a triangle's normal and the ways out at its corners
 constexpr int steps = 12, rounds = 10;
 constexpr std::int64_t grain = 1024;
@@ -125,12 +126,13 @@ class Drawer {
     return sums;
   }
 
-  /// At the gap from where the soup is nearest to a place, on the side that the vertex was on; of a
-  /// place on the soup, as beside the rim of a sheet, the way out is the one before.
+  /// At the gap from where the soup is nearest to a place, on the side that the vertex was on. It
+  /// stays where the place is on the soup, of which no way leads out: about the rims of sheets.
   void settle(Vertex v, const Vector3& place) {
     const Vector3 away = from_soup(place);
+    if (away.norm() < on_soup * how_.gap) return;
     const double side = away.dot(outward(v)) < 0 ? -1 : 1;
-    if (!away.isZero(0)) outward_.row(v) = side * away.stableNormalized();
+    outward_.row(v) = side * away.stableNormalized();
     wrap_.positions.row(v) = place - away + how_.gap * outward(v);
   }
 
