@@ -181,6 +181,9 @@ TEST_CASE("obj_materials: names that lead elsewhere mean the file beside the lib
   CHECK(other.base_colours.at(1).problem ==
         "'../../w.png' leads to another folder, which is not followed; there is no file of that "
         "name; beside it is 'w.jpg'");
+  // A colon that is no drive's leads nowhere.
+  folder.write("c.mtl", "newmtl red\nmap_Kd a:b.png\n");
+  CHECK(folder.read_with("mtllib c.mtl").base_colours.at(0).problem.empty());
 }
 
 TEST_CASE("obj_materials: several libraries, and names with blanks") {

@@ -116,7 +116,7 @@ NamedFile file_below(const fs::path& folder, const fs::path& inside, const std::
   const fs::path path = path_below(name);
   if (path.empty() || is_there(start / path)) return {path};
   NamedFile file = found_on_disk(start, path);
-  if (leads_elsewhere(with_slashes(name)) && !is_there(start / file.path))
+  if (path != fs::path(with_slashes(name)) && !is_there(start / file.path))
     file.problem = problem_elsewhere(name, file);
   return file;
 }
