@@ -74,8 +74,10 @@ TEST_CASE("triangle crossing: all small triangles agree with planes that part th
         for (Vector3& c : t) c.z() = s[0].z();
       const bool expected = has_area(s) && has_area(t) && have_insides_in_common(s, t);
       const bool found = cross_any_way(s, t);
-      if (found != expected) INFO(s[0] << s[1] << s[2] << t[0] << t[1] << t[2]);
-      REQUIRE(found == expected);
+      if (found != expected)
+        FAIL(s[0].transpose() << "; " << s[1].transpose() << "; " << s[2].transpose() << " and "
+                              << t[0].transpose() << "; " << t[1].transpose() << "; "
+                              << t[2].transpose());
       ++(found ? crossing : apart);
     }
     CHECK(crossing > 500);
