@@ -415,6 +415,18 @@ TEST_CASE("spharm: what makes no sense is refused, and nothing is written") {
                                       "flow_speed; did you mean gravity?"));
   CHECK_THAT(told("flow"),
              Contains("no property flow, but its columns, each a scalar: flow_0, flow_1\n"));
+  const Ended twice = sphparam_program(
+      {"spharm", other / "ball.ply", "--scalar", "gravity", "--scalar", "gravity"});
+  CHECK(twice.code == 2);
+  CHECK_THAT(twice.err, Contains("--scalar: gravity is named twice"));
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"--radius"}, {"--shadr", folder / "out.sha"}}) {
+    std::vector<std::string> both = words;
+    both.insert(both.end(), {"--scalar", "radius"});
+    CHECK(run(both).code == 2);
+    CHECK_THAT(run(both).err,
+               Contains("--scalar: radius is what --radius and --shadr expand under that name"));
+  }
   CHECK(run({"--reconstruct", folder / "out.stl"}).code == 2);
   CHECK(run({"--json", ball}).code == 2);
   CHECK(run({"--json", folder / "out", "--csv", folder / "out"}).code == 2);

@@ -442,6 +442,18 @@ TEST_CASE("harmonics_record: what was told is read again, in either normalisatio
   CHECK(coef.fit.coefficients.row(2) == Eigen::RowVector3d(4, 5, 6));
 }
 
+TEST_CASE("harmonics_record: no two functions have one name") {
+  MeshFile file = ball().file();
+  const auto count = static_cast<size_t>(file.mesh.vertex_count());
+  file.set_vertex_property({"radius", ScalarType::Float64, std::vector<double>(count, 1)});
+  const MappedMesh mapped({.file = file, .map = ball().map()});
+  CHECK(expand_in_harmonics(mapped, {"radius"}, {.degree = 1}).functions.back() == "radius");
+  CHECK_THROWS_WITH(expand_in_harmonics(mapped, {"radius"}, {.degree = 1}, Vector3(0, 0, 0)),
+                    Contains("two functions would be called radius"));
+  CHECK_THROWS_AS(expand_in_harmonics(mapped, {"radius", "radius"}, {.degree = 1}),
+                  std::invalid_argument);
+}
+
 TEST_CASE("harmonics_record: of what was turned its place is not known") {
   HarmonicExpansion expansion = expand_in_harmonics(ball(), {}, {.degree = 2});
   for (const auto what : {HarmonicAlignment::Sphere, HarmonicAlignment::SphereAndSurface}) {

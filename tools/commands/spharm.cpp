@@ -69,6 +69,7 @@ struct SpharmArguments : CommonArguments {
   std::function<bool(const std::string&)> given;
 
   int wanted_degree() const { return degree.value_or(usual_degree); }
+  bool has_radius() const { return radius || !shadr.empty(); }
 };
 
 /// A file of coefficients, not of a mesh.
@@ -91,8 +92,12 @@ std::string what_there_is(const MeshFile& file, const std::string& name) {
          did_you_mean(name, names);
 }
 
-void require_scalars(const MeshFile& file, const Words& scalars) {
-  for (const std::string& name : scalars) {
+void require_scalars(const MeshFile& file, const SpharmArguments& arguments) {
+  for (const std::string& name : arguments.scalars) {
+    if (std::ranges::count(arguments.scalars, name) > 1)
+      throw UsageMistake("--scalar: " + name + " is named twice");
+    if (arguments.has_radius() && name == "radius")
+      throw UsageMistake("--scalar: radius is what --radius and --shadr expand under that name");
     if (file.find_vertex_property(name)) continue;
     if (file.find_face_property(name))
       throw UsageMistake("--scalar: " + name +
@@ -104,7 +109,7 @@ void require_scalars(const MeshFile& file, const Words& scalars) {
 /// What the radius is measured from; nothing where none is wanted.
 std::optional<Vector3> centre_of_radius(const SpharmArguments& arguments, const MappedMesh& mapped,
                                         Session& session) {
-  if (!arguments.radius && arguments.shadr.empty()) return std::nullopt;
+  if (!arguments.has_radius()) return std::nullopt;
   const Vector3 centre = body_centre(planetocentric(mapped.provenance()), arguments.centre);
   if (!(mapped.mesh().positions.rowwise() - centre.transpose()).rowwise().norm().allFinite())
     throw UsageMistake("--centre: it is so far from the mesh that the radius is no number");
@@ -194,9 +199,8 @@ void require_coefficients_alone(const SpharmArguments& arguments) {
 }
 
 void require_sensible(const SpharmArguments& arguments) {
-  if (arguments.centre && !arguments.radius && arguments.shadr.empty()) {
+  if (arguments.centre && !arguments.has_radius())
     throw UsageMistake("--centre is for --radius and --shadr only");
-  }
   require_alignment(arguments);
   require_grid(arguments);
   require_mesh_name("--reconstruct", "the surface", arguments.reconstruction);
@@ -219,7 +223,7 @@ void warn_of_open_degrees(const HarmonicExpansion& expansion, Console& console) 
 MappedMesh read_expanded(const SpharmArguments& arguments, Session& session) {
   session.hold_signals();
   MeshSource source = read_mended(arguments.input, arguments.repair, session);
-  require_scalars(source.file, arguments.scalars);
+  require_scalars(source.file, arguments);
   return map_source(std::move(source), arguments.sphere, session, arguments.repair);
 }
 

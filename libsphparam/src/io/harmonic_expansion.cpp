@@ -1,5 +1,6 @@
 #include "sphparam/io/harmonic_expansion.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -20,6 +21,17 @@ namespace sphparam {
 namespace {
 
 constexpr Eigen::Index axes = 3;
+
+/// Of `functions_of`, each once: by its name one is told, and read again.
+std::vector<std::string> names_of(const std::vector<std::string>& scalars, bool with_radius) {
+  std::vector<std::string> names = {"x", "y", "z"};
+  names.insert(names.end(), scalars.begin(), scalars.end());
+  if (with_radius) names.emplace_back("radius");
+  for (auto name = names.begin(); name != names.end(); ++name)
+    if (std::find(names.begin(), name, *name) != name)
+      throw std::invalid_argument("two functions would be called " + *name);
+  return names;
+}
 
 /// x, y, z, the scalars and the radius, one a column.
 Functions functions_of(const MeshFile& file, const std::vector<std::string>& scalars,
@@ -159,9 +171,7 @@ HarmonicExpansion expand_in_harmonics(const MappedMesh& mapped,
   const MeshFile& file = mapped.file();
   const Points& positions = file.mesh.positions;
   HarmonicExpansion result;
-  result.functions = {"x", "y", "z"};
-  result.functions.insert(result.functions.end(), scalars.begin(), scalars.end());
-  if (radius_about) result.functions.emplace_back("radius");
+  result.functions = names_of(scalars, radius_about.has_value());
   result.radius_about = radius_about;
   result.least_squares = options.least_squares;
   result.map = mapped.provenance();

@@ -60,7 +60,8 @@ struct HarmonicExpansion {
 /// says (`is_as_said`) along rays from its centre, of others linearly; the radius is that of their
 /// points, not linear.
 /// Requires: numbers whose squares doubles hold. Throws: std::invalid_argument for a name that no
-/// vertex property has, and as `fit_harmonics`; Cancelled. Cost: `fit_harmonics`'.
+/// vertex property has, or that two functions would have, and as `fit_harmonics`; Cancelled. Cost:
+/// `fit_harmonics`'.
 HarmonicExpansion expand_in_harmonics(const MappedMesh& mapped,
                                       const std::vector<std::string>& scalars = {},
                                       const HarmonicFitOptions& options = {},
