@@ -53,7 +53,8 @@ struct HarmonicFitOptions {
   /// projection of what is between the vertices, too, whatever the degree wanted.
   bool least_squares = true;
   int most_iterations = 100;  // ≥ 0: of conjugate gradients
-  double tolerance = 1e-12;   // 0 to 1: of their residual, relative to the right-hand side's
+  double tolerance = 1e-12;   // 0 to 1: of their residual, relative to the right-hand side's; what
+                              // is rounding of the function itself does, too
   /// The k functions anywhere on the surface, equal to the values at vertices; linear on each
   /// triangle of the map where it is empty.
   std::function<VectorX(const SurfacePoint&)> between = {};
