@@ -49,7 +49,7 @@ class Harmonics:
         self.centre: Optional[Tuple[float, float, float]] = found["centre"]
         """What ``"radius"`` is the distance from, in the mesh's coordinates; None where it was not expanded."""
         self.aligned: bool = found["aligned"]
-        """Whether sphere and surface were turned onto the ellipsoid's axes."""
+        """Whether sphere and surface, or the sphere alone, were turned onto the ellipsoid's axes."""
         self._expansion = found["expansion"]
 
     @property
