@@ -59,6 +59,27 @@ TEST_CASE(
   CHECK(std::holds_alternative<TexturePaint>(own_paint(file, painted)));
 }
 
+TEST_CASE("own_paint: in glTF colours of vertices multiply the texture, on the sphere too") {
+  MeshFile file = two_materials();
+  add_colours(file, ScalarType::Uint8, 51);
+  const MeshTextures painted{.of_materials = {coloured(1, 0, 0), with_image()}};
+  CHECK(std::get<TexturePaint>(own_paint(file, painted)).tints.empty());
+  file.format = "glTF binary";
+  const auto paint = std::get<TexturePaint>(own_paint(file, painted));
+  REQUIRE(std::ssize(paint.tints) == file.mesh.triangles.size());
+  const MeshTextures plain{.of_materials = {coloured(1, 0, 0), coloured(0, 1, 0)}};
+  CHECK(std::get<TexturePaint>(own_paint(file, plain)).tints == paint.tints);
+  for (const Rgb& tint : paint.tints) CHECK((tint - Rgb::Constant(0.2F)).norm() < 1e-6F);
+  const RenderObject sphere = on_sphere({.mesh = file.mesh, .paint = paint}, file.mesh.positions);
+  CHECK(std::ssize(std::get<TexturePaint>(sphere.paint).tints) == sphere.mesh.triangles.size());
+
+  TexturePaint white{.texcoords = {}, .textures = {coloured(1, 1, 1)}};
+  white.tints.assign(static_cast<size_t>(file.mesh.triangles.size()), Rgb(0.5F, 0.25F, 0));
+  const VertexPaint same{.colours = std::vector<Rgb>(static_cast<size_t>(file.mesh.vertex_count()),
+                                                     Rgb(0.5F, 0.25F, 0))};
+  CHECK((seen(file.mesh, white) - seen(file.mesh, same)).norm() < 1e-6F);
+}
+
 TEST_CASE(
     "own_paint: directions have hard edges where normals of corners say so, also on the sphere") {
   MeshFile file;

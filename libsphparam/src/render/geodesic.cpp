@@ -168,6 +168,7 @@ std::uint8_t seams_of(const Piece& piece, unsigned seams) {
 
 TexturePaint refined(const TexturePaint& paint, const Refinement& refinement) {
   TexturePaint result{.texcoords = {}, .textures = paint.textures};
+  result.tints = refined_corners(paint.tints, refinement);
   if (!paint.texture_of.empty()) {
     for (const Piece& piece : refinement.pieces()) {
       result.texture_of.push_back(paint.texture_of[static_cast<size_t>(piece.source)]);

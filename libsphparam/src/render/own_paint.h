@@ -5,10 +5,10 @@
 
 namespace sphparam {
 
-/// What a mesh looks like by itself, for pictures and pages alike: its textures; where none has an
-/// image, the colours of its vertices; else those of its materials; else `direction_paint`.
-/// Requires: textures of the file's materials, or one for all; texture coordinates where one has an
-/// image.
+/// What a mesh looks like by itself, for pictures and pages alike: its textures, of glTF times the
+/// colours of its vertices; where none has an image, the colours of its vertices; else those of its
+/// materials; else `direction_paint`. Requires: textures of the file's materials, or one for all;
+/// texture coordinates where one has an image.
 Paint own_paint(const MeshFile& file, const MeshTextures& textures = {});
 
 /// Each direction of the surface in a pastel colour of its own: features stay recognisable wherever

@@ -49,6 +49,7 @@ struct TexturePaint {
   SeamedTexcoords texcoords;            // empty where no texture has an image
   std::vector<SourceTexture> textures;  // alpha is not looked at
   std::vector<int> texture_of = {};     // a face, −1: white; empty: the first for all
+  std::vector<Rgb> tints = {};          // 3·#F, interpolated, which multiply them; empty: none
 };
 using Paint = std::variant<UniformPaint, VertexPaint, FacePaint, CheckerPaint, TexturePaint>;
 

@@ -154,7 +154,13 @@ Rgb SurfaceColour::painted(const ShadedSample& sample) const {
             return to_linear(paint.colours[static_cast<size_t>(sample.face)]);
           },
           [&](const CheckerPaint& paint) { return checker_colour(paint, triangles, sample); },
-          [&](const TexturePaint& paint) { return texture_colour(paint, sample); }},
+          [&](const TexturePaint& paint) -> Rgb {
+            const Rgb colour = texture_colour(paint, sample);
+            if (paint.tints.empty()) return colour;
+            return colour.cwiseProduct(mean([&](int k) {
+              return to_linear(paint.tints[static_cast<size_t>(3 * sample.face + k)]);
+            }));
+          }},
       object_->paint);
 }
 
