@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "program.h"
 #include "sphparam/io/mesh_reader.h"
@@ -215,6 +216,30 @@ TEST_CASE("spharm: the radius of a radial map, in geodesy's normalisation, and a
       sphparam_program({"spharm", map, "--radius", "--centre", "1e300,0,0", "--json", "-"});
   CHECK(far.code == 2);
   CHECK_THAT(far.err, Contains("--centre: it is so far from the mesh"));
+}
+
+TEST_CASE("spharm: a centre outside of the body is told, centroid is that of what it encloses") {
+  const Folder folder;
+  TriangleMesh ball = icosphere(3);
+  ball.positions.rowwise() += Vector3(5, 6, 7).transpose();
+  const std::string map = folder / "ball.sph.ply";
+  REQUIRE(sphparam_program({"map", "-", "-o", map, "--method", "radial", "--centre", "centroid"},
+                           obj_text(ball))
+              .code == 0);
+  const auto radius_about = [&](const char* centre, bool is_outside) {
+    const Ended ended = sphparam_program(
+        {"spharm", map, "--radius", "--centre", centre, "--degree", "2", "--json", "-"});
+    INFO(ended.err);
+    REQUIRE(ended.code == 0);
+    CHECK((ended.err.find("the centre 0,0,0 lies outside of the surface: --centre centroid is "
+                          "5,6,7") != std::string::npos) == is_outside);
+    return Json::parse(ended.out);
+  };
+  const Json inside = radius_about("centroid", false);
+  for (int k = 0; k < 3; ++k) CHECK(inside["centre"][k].get<double>() == Approx(5 + k));
+  const auto& mean = inside["functions"][3]["coefficients"][0];
+  CHECK(mean.get<double>() == Approx(std::sqrt(4 * std::numbers::pi)).epsilon(0.01));
+  radius_about("0,0,0", true);
 }
 
 TEST_CASE("spharm: what the vertices leave open is told, with the degree that leaves it out") {

@@ -12,6 +12,7 @@ struct CentreArgument {
   std::optional<Vector3> point = {};
   bool is_centroid = false;
 
+  bool is_given() const { return point || is_centroid; }
   /// Of what a closed mesh encloses, where that is asked for.
   std::optional<Vector3> of(const TriangleMesh& mesh) const;
 };

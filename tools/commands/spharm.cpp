@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "arguments/centre_argument.h"
 #include "arguments/limits.h"
 #include "arguments/mesh_names.h"
 #include "commands/command.h"
@@ -15,6 +16,7 @@
 #include "number_text.h"
 #include "reports/told_fillers.h"
 #include "reports/told_losses.h"
+#include "sphere/body_centre.h"
 #include "sphparam/io/certified_files.h"
 #include "sphparam/io/coef_file.h"
 #include "sphparam/io/fillers.h"
@@ -59,7 +61,7 @@ struct SpharmArguments : CommonArguments {
   std::string grid;  // of it; empty: the mesh's own vertices
   std::string shadr;
   bool radius = false;
-  std::optional<Vector3> centre;  // none: that of a radial map, else the origin
+  CentreArgument centre;  // none: that of a radial map, else the origin
   std::string align, flips, coef;
   HarmonicNormalisation normalisation = HarmonicNormalisation::Orthonormal;
   Words scalars;
@@ -110,9 +112,12 @@ void require_scalars(const MeshFile& file, const SpharmArguments& arguments) {
 std::optional<Vector3> centre_of_radius(const SpharmArguments& arguments, const MappedMesh& mapped,
                                         Session& session) {
   if (!arguments.has_radius()) return std::nullopt;
-  const Vector3 centre = body_centre(planetocentric(mapped.provenance()), arguments.centre);
+  const Vector3 centre =
+      body_centre(planetocentric(mapped.provenance()), arguments.centre.of(mapped.mesh()));
   if (!(mapped.mesh().positions.rowwise() - centre.transpose()).rowwise().norm().allFinite())
     throw UsageMistake("--centre: it is so far from the mesh that the radius is no number");
+  if (const std::string line = line_of_outside(mapped.mesh(), centre); !line.empty())
+    session.console.warning(line);
   const std::string off = longitudes_off(mapped, centre, false, session.threads());
   if (!off.empty())
     session.console.warning("the longitudes of these harmonics are the map's, not the body's: " +
@@ -199,7 +204,7 @@ void require_coefficients_alone(const SpharmArguments& arguments) {
 }
 
 void require_sensible(const SpharmArguments& arguments) {
-  if (arguments.centre && !arguments.has_radius())
+  if (arguments.centre.is_given() && !arguments.has_radius())
     throw UsageMistake("--centre is for --radius and --shadr only");
   require_alignment(arguments);
   require_grid(arguments);
@@ -334,14 +339,10 @@ void declare_options(Declaration& command, SpharmArguments& arguments) {
               "sphere (default: least-squares)")
       .flag("--radius", arguments.radius, "The distance from the centre of the body too")
       .parsed(
-          "--centre", "X,Y,Z",
-          [&arguments](const std::string& text) {
-            const auto numbers = three_numbers(text);
-            if (numbers) arguments.centre = Vector3(numbers->data());
-            return numbers.has_value();
-          },
-          "expected three numbers, as in 0,0,1.5, not ",
-          "The body's centre, in the mesh's coordinates")
+          "--centre", centre_pattern,
+          [&arguments](const std::string& text) { return read_centre(text, arguments.centre); },
+          wanted_centre,
+          "The body's centre, in the mesh's coordinates, or that of what it encloses")
       .preset("that of a radial map, else 0,0,0")
       .choice("--normalisation", arguments.normalisation,
               {{"orthonormal", HarmonicNormalisation::Orthonormal},
