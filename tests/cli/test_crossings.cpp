@@ -49,6 +49,19 @@ TEST_CASE("info: the pairs of triangles that cross are counted, and where the fi
       "first": {"triangles": [3, 4], "place": [2.5, 2.5, 1]}, "all_looked_at": true})"));
 }
 
+TEST_CASE("info --no-crossings: they are not looked for, and everything else is told as ever") {
+  const std::string blocks = obj_text(joined(block_corner(), block_corner(), {1, 1, 1}));
+  const std::string all = sphparam_program({"info", "-"}, blocks).out;
+  const std::string counted = all.substr(all.find("  crossings"));
+  std::string expected = all;
+  expected.replace(all.find("  crossings"), counted.find('\n'), "  crossings     not looked for");
+  const Ended ended = sphparam_program({"info", "-", "--no-crossings"}, blocks);
+  CHECK(ended.code == sphparam_program({"info", "-"}, blocks).code);
+  CHECK(ended.out == expected);
+  const Ended json = sphparam_program({"info", "-", "--no-crossings", "--json", "-"}, blocks);
+  CHECK(Json::parse(json.out)["crossings"].is_null());
+}
+
 TEST_CASE("remesh: faces that cross or lie inverted in space are warned of, and info finds them") {
   const Folder folder;
   const std::string part = folder / "part.obj", out = folder / "new.obj";

@@ -30,6 +30,7 @@ constexpr char summary[] =
 
 struct InfoArguments : CommonArguments {
   std::string input;
+  bool crossings = true;
 };
 
 /// A file of numbers a vertex; nothing where it is none.
@@ -55,12 +56,19 @@ int tell_data(const VertexData& data, const InfoArguments& arguments, Session& s
   return MeshUnusable;
 }
 
+std::optional<SelfCrossings> looked_for_crossings(const MeshSource& source,
+                                                  const InfoArguments& arguments,
+                                                  Session& session) {
+  if (!arguments.crossings) return std::nullopt;
+  session.console.progress("crossings", 0);
+  return crossings_of(source.file, session.threads());
+}
+
 int tell_mesh(const MeshSource& source, const InfoArguments& arguments, Session& session) {
   InspectionRecord record = {.source = source};
   if (!source.inspection.is_sphere()) record.repair = try_repair(source);
   if (record.repair && record.repair->parts.refused) record.parts = try_parts(source);
-  session.console.progress("crossings", 0);
-  record.crossings = crossings_of(source.file, session.threads());
+  record.crossings = looked_for_crossings(source, arguments, session);
   record.seconds = session.stopwatch.seconds();
   publish(record, arguments, session);
   if (is_mappable(source)) return Ok;
@@ -88,6 +96,8 @@ int run_info(InfoArguments& arguments) {
 
 void declare_options(Declaration& command, InfoArguments& arguments) {
   command.input("MESH", arguments.input, readable_formats("or") + "; - for standard input")
+      .flag_off("--no-crossings", arguments.crossings,
+                "Triangles that cross in space are not looked for: much quicker")
       .json(arguments)
       .threads(arguments)
       .console(arguments);

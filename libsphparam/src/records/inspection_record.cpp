@@ -120,7 +120,7 @@ std::string crossings_text(const SelfCrossings& crossings, double length) {
 }
 
 std::string crossings_line(const InspectionRecord& record) {
-  if (!record.crossings) return "";
+  if (!record.crossings) return line("crossings", "not looked for");
   const MeshInspection& mesh = record.source.inspection;
   return line("crossings", crossings_text(*record.crossings, (mesh.upper - mesh.lower).maxCoeff()));
 }
