@@ -47,4 +47,11 @@ std::array<BigInteger, count> as_integers(const std::array<double, count>& numbe
   return result;
 }
 
+inline BigInteger determinant(const std::array<BigInteger, 3>& a,
+                              const std::array<BigInteger, 3>& b,
+                              const std::array<BigInteger, 3>& c) {
+  return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+         a[2] * (b[0] * c[1] - b[1] * c[0]);
+}
+
 }  // namespace sphparam

@@ -1,8 +1,6 @@
 #include "sphere/planar_orientation.h"
 
-#include <cmath>
-
-#include "ieee_arithmetic.h"
+#include "sign_filter.h"
 #include "sphparam/sphere/orientation.h"
 
 // Shewchuk's first filter (1997, Section 4.3): with δ = 2⁻⁵³ the differences, products and the sum
@@ -12,12 +10,10 @@
 namespace sphparam {
 
 int planar_orientation(const ChartPoint& a, const ChartPoint& b, const ChartPoint& c) {
-  const double left = (a.v - c.v) * (b.u - c.u), right = (a.u - c.u) * (b.v - c.v);
-  const double area = left - right, magnitude = std::abs(left) + std::abs(right);
-  if (magnitude > 1e-280) {
-    const double bound = 0x1p-51 * magnitude;
-    if (area > bound) return 1;
-    if (-area > bound) return -1;
+  const FilteredSum area =
+      filtered_difference((a.v - c.v) * (b.u - c.u), (a.u - c.u) * (b.v - c.v));
+  if (area.size > 1e-280) {
+    if (const int sign = area.sign(0x1p-51)) return sign;
   }
   return exact_orientation({a.v, a.u, 1}, {b.v, b.u, 1}, {c.v, c.u, 1});
 }
