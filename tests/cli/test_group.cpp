@@ -280,6 +280,56 @@ TEST_CASE("group: means of what shapes have, and how areas grow, are in the file
   }
 }
 
+TEST_CASE("group: numbers called as columns of its own get another name, and nothing is replaced") {
+  const Folder folder;
+  std::vector<std::string> words{"group"};
+  for (int i = 1; i < 3; ++i) {
+    MeshFile file;
+    file.mesh = icosphere(2);
+    file.mesh.positions *= i;
+    const auto count = size_t(file.mesh.vertex_count());
+    double value = i;
+    for (const char* name : {"normal", "growth", "growth_carried", "normal_displacement", "weight"})
+      file.set_vertex_property({name, ScalarType::Float64, std::vector(count, value *= 10)});
+    const std::string path = folder / ("ball" + std::to_string(i) + ".ply");
+    save_mapped(path, MappedMesh({.file = file, .map = {icosphere(2).positions}}));
+    words.push_back(path);
+  }
+  const std::string out = folder / "out";
+  words.insert(words.end(),
+               {"--start", "maps", "--hold", "--grid", "ico:2", "--size", "0", "-o", out});
+  const Ended ended = sphparam_program(words);
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.err, Contains("of what shapes carry normal is normal_carried, "
+                                 "normal_displacement is normal_displacement_carried and growth "
+                                 "is growth_carried_carried on the grid: "));
+  const std::vector<std::pair<std::string, double>> names = {{"normal_carried", 10},
+                                                             {"growth_carried_carried", 100},
+                                                             {"growth_carried", 1e3},
+                                                             {"normal_displacement_carried", 1e4},
+                                                             {"weight", 1e5}};
+  const MeshFile mean = read_mesh(out + "/mean.sph.ply");
+  const MeshFile shape = read_mesh(out + "/shape_ball2.sph.ply");
+  std::string header;
+  for (const auto& [name, value] : names) {
+    INFO(name);
+    CHECK(mean.find_vertex_property(name + "_mean")->values == std::vector(162, 1.5 * value));
+    CHECK(mean.find_vertex_property(name + "_deviation")->values ==
+          std::vector(162, value / std::sqrt(2.0)));
+    CHECK(shape.find_vertex_property(name)->values == std::vector(162, 2 * value));
+    header += "\t" + name + "_mean\t" + name + "_deviation";
+  }
+  CHECK_THAT(lines_of(bytes_of(out + "/vertices.tsv"))[0], Catch::EndsWith(header));
+  // Balls of radius 1 and 2: the mean has 1.5.
+  for (const double value : mean.find_vertex_property("normal_deviation")->values)
+    CHECK(value == Approx(std::sqrt(0.5)).epsilon(1e-12));
+  for (const double value : shape.find_vertex_property("growth")->values)
+    CHECK(value == Approx(4 / 2.25).epsilon(1e-12));
+  CHECK(Json::parse(bytes_of(out + "/group.json"))["scalars"][1]["name"] ==
+        "growth_carried_carried");
+}
+
 TEST_CASE("group: the same bytes for 1 and 3 threads") {
   const Eggs eggs;
   std::vector<std::string> bytes;

@@ -1,9 +1,11 @@
 #include "sphparam/records/group_record.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <string_view>
 
 #include "mesh/vertex_normals.h"
 #include "number_text.h"
@@ -27,6 +29,15 @@ constexpr double far_energy = 1.5;       // of the median beyond isometry: a sha
 constexpr double telling_energy = 0.25;  // if it is this much beyond the median, too
 constexpr double isometry = 2;           // of symmetric Dirichlet as it is minimised
 constexpr size_t telling_count = 5;      // shapes: of fewer no median says anything
+
+// What columns of a group's own files are called, or numbers of that name would make them.
+constexpr std::array<std::string_view, 3> own_names = {"normal", "normal_displacement", "growth"};
+
+bool is_carried(const Group& group, const std::string& name) {
+  return std::ranges::any_of(group.members, [&](const GroupMember& member) {
+    return member.resampled.file().find_vertex_property(name) != nullptr;
+  });
+}
 
 double rms(const Points& points, const VectorX& weights) {
   return std::sqrt(points.rowwise().squaredNorm().dot(weights));
@@ -113,7 +124,7 @@ Json modes_json(const ShapeModes& modes) {
 Json scalars_json(const Group& group) {
   Json all = Json::array();
   for (const GroupScalar& scalar : group.scalars)
-    all.push_back({{"name", scalar.name}, {"shapes", scalar.shapes.size()}});
+    all.push_back({{"name", carried_name(group, scalar.name)}, {"shapes", scalar.shapes.size()}});
   return all;
 }
 
@@ -126,6 +137,17 @@ std::string missing_line(const GroupRecord& record, const GroupScalar& scalar) {
   return scalar.name + ": its mean is of " + std::to_string(scalar.shapes.size()) + " of " +
          std::to_string(record.names.size()) + " shapes: " + enumerated(missing) +
          (missing.size() == 1 ? " has" : " have") + " none";
+}
+
+/// Numbers that are called otherwise in the files; empty where none is.
+std::string renamed_line(const Group& group) {
+  std::vector<std::string> renamed;
+  for (const std::string_view own : own_names)
+    if (const std::string name(own); is_carried(group, name))
+      renamed.push_back(name + " is " + carried_name(group, name));
+  if (renamed.empty()) return {};
+  return "of what shapes carry " + enumerated(renamed) +
+         " on the grid: a group has columns of its own of such names";
 }
 
 /// Subjects of FreeSurfer have one name for the same surface of each: "sub01_lh_white" of
@@ -169,6 +191,13 @@ std::vector<std::string> names_of_shapes(const std::vector<std::string>& files) 
     names.push_back(name);
   }
   return names;
+}
+
+std::string carried_name(const Group& group, const std::string& name) {
+  if (std::ranges::find(own_names, name) == own_names.end()) return name;
+  std::string result = name + "_carried";
+  while (is_carried(group, result)) result += "_carried";
+  return result;
 }
 
 std::string grid_name(const GroupOptions& options) {
@@ -272,7 +301,8 @@ std::string vertices_table(const GroupRecord& record) {
                                   "normal_deviation"};
   for (std::string& name : mode_names(group, "normal_mode")) header.push_back(std::move(name));
   for (const GroupScalar& scalar : group.scalars)
-    header.insert(header.end(), {scalar.name + "_mean", scalar.name + "_deviation"});
+    for (const char* of : {"_mean", "_deviation"})
+      header.push_back(carried_name(group, scalar.name) + of);
   std::string text = row(header);
   for (Vertex v = 0; v < group.mean.mesh().vertex_count(); ++v) {
     const Vector3 x = group.mean.mesh().position(v);
@@ -360,6 +390,8 @@ std::vector<std::string> group_warnings(const GroupRecord& record) {
   for (const GroupScalar& scalar : record.group.scalars)
     if (std::string line = missing_line(record, scalar); !line.empty())
       warnings.push_back(std::move(line));
+  if (std::string line = renamed_line(record.group); !line.empty())
+    warnings.push_back(std::move(line));
   return warnings;
 }
 

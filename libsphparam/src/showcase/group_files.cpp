@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "io/data_comments.h"
 #include "mesh/vertex_normals.h"
 #include "sphparam/gltf/export.h"
 #include "sphparam/io/certified_files.h"
@@ -14,6 +15,12 @@ namespace {
 constexpr double shown_deviations = 2;  // from the mean, of modes
 
 std::vector<double> as_list(const VectorX& values) { return {values.begin(), values.end()}; }
+
+std::vector<std::string> names_of_vertices(const MeshFile& file) {
+  std::vector<std::string> names;
+  for (const Property& property : file.vertex_properties) names.push_back(property.name);
+  return names;
+}
 
 /// The mesh with its map, and other things at its vertices.
 MappedMesh with_file(const MappedMesh& mesh, MeshFile file) {
@@ -64,9 +71,10 @@ class GroupWriter {
         {"normal_deviation", ScalarType::Float64, as_list(group().normal_deviation)});
     file.set_vertex_property({"weight", ScalarType::Float64, as_list(group().weights)});
     for (const GroupScalar& scalar : group().scalars) {
-      file.set_vertex_property({scalar.name + "_mean", ScalarType::Float64, as_list(scalar.mean)});
+      const std::string name = carried_name(group(), scalar.name);
+      file.set_vertex_property({name + "_mean", ScalarType::Float64, as_list(scalar.mean)});
       file.set_vertex_property(
-          {scalar.name + "_deviation", ScalarType::Float64, as_list(scalar.deviation)});
+          {name + "_deviation", ScalarType::Float64, as_list(scalar.deviation)});
     }
     const MappedMesh mean = with_file(group().mean, std::move(file));
     add_mesh_with_map("mean.sph.ply", mean);
@@ -111,6 +119,8 @@ class GroupWriter {
                               .rowwise()
                               .sum();
     MeshFile file = shape.file();
+    for (const std::string& name : names_of_vertices(file))
+      rename_vertex_property(file, name, carried_name(group(), name));
     file.set_vertex_property({"normal_displacement", ScalarType::Float64, as_list(along)});
     const Growth growth = growth_from_mean(group(), i);
     file.set_vertex_property({"growth", ScalarType::Float64, as_list(growth.vertices)});

@@ -60,6 +60,11 @@ std::string vertices_table(const GroupRecord& record);
 /// number there; −1 where repair left none. Cost: a pass over the vertices each.
 std::string landmarks_table(const GroupRecord& record);
 
+/// What the files of a group call a number that shapes carry: by its name, but "growth_carried"
+/// where a group writes a column of that name itself: normal (whose deviation would be
+/// normal_deviation), normal_displacement, growth. No two are called alike.
+std::string carried_name(const Group& group, const std::string& name);
+
 /// "ico:5", or "template".
 std::string grid_name(const GroupOptions& options);
 
@@ -81,7 +86,8 @@ std::vector<std::string> mode_lines(const GroupRecord& record);
 /// choosing a component kept, what was put in.
 std::vector<std::string> mended_lines(const GroupRecord& record);
 /// What is to be looked at, each with the shape's name: what was told of each, and shapes whose
-/// energy is far above the others'; of `Group::scalars` which shapes are without.
+/// energy is far above the others'; of `Group::scalars` which shapes are without; and which numbers
+/// are called otherwise (`carried_name`).
 std::vector<std::string> group_warnings(const GroupRecord& record);
 
 }  // namespace sphparam
