@@ -1,9 +1,8 @@
 #include "bake/chart_piece.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include "sphparam/sphere/orientation.h"
+#include "sphere/planar_orientation.h"
 
 // A sign of 0 is decided as if the point were moved by (−ε², ε) in (v, u): the sign of
 // det(b − a, δ) then is + iff (v, u) of b is lexicographically greater than that of a, and the same
@@ -14,12 +13,7 @@ namespace {
 
 /// Is p to the left of the edge from a to b, ties decided by the moved point?
 bool is_left(const UvPoint& a, const UvPoint& b, const UvPoint& p) {
-  const double det = (b.v - a.v) * (p.u - a.u) - (b.u - a.u) * (p.v - a.v);
-  const double size = std::abs((b.v - a.v) * (p.u - a.u)) + std::abs((b.u - a.u) * (p.v - a.v));
-  // Four roundings of at most 2⁻⁵³ each; products that may have underflowed are left to
-  // `orientation`.
-  if (size > 1e-280 && std::abs(det) > 0x1p-50 * size) return det > 0;
-  const int sign = orientation(Vector3(a.v, a.u, 1), Vector3(b.v, b.u, 1), Vector3(p.v, p.u, 1));
+  const int sign = planar_orientation({a.u, a.v}, {b.u, b.v}, {p.u, p.v});
   return sign != 0 ? sign > 0 : a < b;
 }
 
