@@ -4,8 +4,8 @@
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(OIIO REQUIRED IMPORTED_TARGET OpenImageIO)
 pkg_check_modules(WEBP REQUIRED IMPORTED_TARGET libwebp)
-add_library(sphparam_image_oiio MODULE src/image/oiio/jpeg.cpp src/image/oiio/oiio_module.cpp
-  src/image/oiio/webp_codec.cpp)
+add_library(sphparam_image_oiio MODULE src/image/oiio/decoding.cpp src/image/oiio/jpeg.cpp
+  src/image/oiio/oiio_module.cpp src/image/oiio/webp_codec.cpp)
 target_include_directories(sphparam_image_oiio PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
 target_compile_features(sphparam_image_oiio PRIVATE cxx_std_20)
 target_compile_options(sphparam_image_oiio PRIVATE ${SPHPARAM_HARDENING})

@@ -16,6 +16,7 @@
 
 #include "image/image_codec.h"
 #include "image/open_module.h"
+#include "image/sinks.h"
 #include "support/leaks_of_others.h"
 
 using namespace sphparam;
@@ -412,13 +413,10 @@ TEST_CASE("image codec: files are written and read by name, wrong names and type
 
 TEST_CASE("image codec: memory that ran out is no broken image") {
   const std::vector<char> bytes = encode_image(ramp(20, 10, 3, 256), ImageFormat::Png);
-  const auto no_room = [](void*, int, int, int) -> float* { return nullptr; };
+  const SphparamPixelRoom no_room{[](void*, int, int, int) -> float* { return nullptr; }, nullptr};
   std::string told;
-  const auto tell = [](void* text, const char* more, size_t size) {
-    static_cast<std::string*>(text)->append(more, size);
-  };
-  CHECK(image_codecs().decode("png", bytes.data(), bytes.size(), 1, 4, no_room, nullptr, nullptr,
-                              nullptr, tell, &told) == 1);
+  CHECK(image_codecs().decode("png", bytes.data(), bytes.size(), {1, 4}, no_room, {}, into(told)) ==
+        1);
   CHECK_THROWS_AS(throw_told("x.png: ", told), std::bad_alloc);
   CHECK_THROWS_WITH(throw_told("x.png: ", "cut short"), "x.png: cut short");
 }

@@ -16,6 +16,7 @@
 #include "image/image_writer.h"
 #include "image/meant_rows.h"
 #include "image/open_module.h"
+#include "image/sinks.h"
 #include "support/image_headers.h"
 #include "support/leaks_of_others.h"
 
@@ -408,13 +409,15 @@ TEST_CASE("image writer: an environment map in rows has one level, in tiles all"
                                        .metadata = {{"textureformat", "LatLong Environment"}}});
     CHECK(image_header({bytes.data(), bytes.size()}).tiled == tiles);
     const ImagePlace memory = in_memory(bytes);
-    const auto read = [](void* place, std::int64_t offset, void* part, size_t size) {
-      return static_cast<const ImagePlace*>(place)->read(offset, static_cast<char*>(part), size);
-    };
-    const auto ignore = [](void*, const char*, size_t) {};
-    const auto forget = [](void*, const char*, const char*) {};
-    void* file = image_codecs().open_written("openexr", read, const_cast<ImagePlace*>(&memory),
-                                             std::ssize(bytes), forget, nullptr, ignore, nullptr);
+    const SphparamBytesFrom from{[](void* place, std::int64_t offset, void* part, size_t size) {
+                                   return static_cast<const ImagePlace*>(place)->read(
+                                       offset, static_cast<char*>(part), size);
+                                 },
+                                 const_cast<ImagePlace*>(&memory)};
+    ImageTexts texts;
+    std::string error;
+    void* file =
+        image_codecs().open_written("openexr", from, std::ssize(bytes), into(texts), into(error));
     REQUIRE(file != nullptr);
     for (int level = 1; level < 10; ++level) {
       SphparamImageLevel found{};

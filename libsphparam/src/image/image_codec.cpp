@@ -97,9 +97,10 @@ Image decode_image(const std::vector<char>& bytes, std::string_view name, const 
   if (!format) return decode_ourselves({bytes.data(), bytes.size()}, std::string(name), limits);
   Image image;
   std::string error;
-  if (image_codecs().decode(format, bytes.data(), bytes.size(), limits.decoded_megabytes,
-                            limits.channels, make_room, &image, texts ? append_pair : nullptr,
-                            texts, append_text, &error) != 0) {
+  const SphparamTextSink told = texts ? into(*texts) : SphparamTextSink{};
+  if (image_codecs().decode(format, bytes.data(), bytes.size(),
+                            {limits.decoded_megabytes, limits.channels}, {make_room, &image}, told,
+                            into(error)) != 0) {
     throw_told(prefix, error.empty() ? "broken image" : error);
   }
   return image;

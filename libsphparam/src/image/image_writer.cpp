@@ -64,7 +64,7 @@ struct ImageWriter::State {
   /// Gives an image that is not closed up, also where the writer throws before there is one.
   ~State() {
     file = {};
-    if (image) image_codecs().close(image, 1, append_text, &error);
+    if (image) image_codecs().close(image, 1, into(error));
   }
 
   static int write(void* context, std::int64_t offset, const void* bytes, size_t size) {
@@ -175,8 +175,8 @@ void ImageWriter::State::require_rows(void* written, int number) {
   for (int row = 0; row < level.height; row += MeantRows::rows_at_once) {
     const int rows = std::min(MeantRows::rows_at_once, level.height - row);
     error.clear();
-    const bool failed = image_codecs().read_rows(written, number, row, rows, samples.data(),
-                                                 append_text, &error) != 0;
+    const bool failed =
+        image_codecs().read_rows(written, number, row, rows, samples.data(), into(error)) != 0;
     if (thrown) std::rethrow_exception(thrown);
     const std::string why = failed ? error : level.rows.difference(samples.data(), row, rows);
     if (failed || !why.empty()) refuse(why);
@@ -189,8 +189,7 @@ void ImageWriter::State::read_back() {
   ImageTexts texts;
   error.clear();
   const std::unique_ptr<void, void (*)(void*)> written(
-      codecs.open_written(codec_of(options.format), read, this, size, append_pair, &texts,
-                          append_text, &error),
+      codecs.open_written(codec_of(options.format), {read, this}, size, into(texts), into(error)),
       codecs.close_written);
   if (thrown) std::rethrow_exception(thrown);
   if (!written) refuse(error);
@@ -244,9 +243,8 @@ ImageWriter::ImageWriter(const ImageFileOptions& options, ImagePlace file)
                                        .wraps = 1,
                                        .metadata = metadata.data(),
                                        .metadata_count = options.metadata.size(),
-                                       .write = State::write,
-                                       .context = state_.get()};
-  state_->image = image_codecs().open(&described, append_text, &state_->error);
+                                       .file = {State::write, state_.get()}};
+  state_->image = image_codecs().open(&described, into(state_->error));
   state_->check(!state_->image);
   state_->add_level(options.width, options.height);
 }
@@ -255,22 +253,21 @@ ImageWriter::~ImageWriter() = default;
 
 void ImageWriter::write_rows(const void* samples, int rows) {
   const int failed = image_codecs().write_rows(state_->image, state_->next_row, rows, samples,
-                                               append_text, &state_->error);
+                                               into(state_->error));
   state_->check(failed != 0);
   state_->levels.back().rows.add(samples, rows);
   state_->next_row += rows;
 }
 
 void ImageWriter::begin_level(int width, int height) {
-  state_->check(
-      image_codecs().next_level(state_->image, width, height, append_text, &state_->error) != 0);
+  state_->check(image_codecs().next_level(state_->image, width, height, into(state_->error)) != 0);
   state_->next_row = 0;
   state_->add_level(width, height);
 }
 
 void ImageWriter::close() {
   void* image = std::exchange(state_->image, nullptr);
-  state_->check(image_codecs().close(image, 0, append_text, &state_->error) != 0);
+  state_->check(image_codecs().close(image, 0, into(state_->error)) != 0);
   state_->read_back();
 }
 

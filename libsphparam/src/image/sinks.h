@@ -5,22 +5,32 @@
 #include <vector>
 
 #include "image/image_codec.h"
+#include "image/oiio_module.h"
 
 namespace sphparam {
 
-// What the module gives to its sinks (`oiio_module.h`), appended to the context.
+// Sinks of the image module that append what they take.
 
-inline void append_bytes(void* bytes, const char* more, std::size_t size) {
-  auto& all = *static_cast<std::vector<char>*>(bytes);
-  all.insert(all.end(), more, more + size);
+inline SphparamBytesSink into(std::vector<char>& bytes) {
+  return {[](void* all, const char* more, std::size_t size) {
+            auto& before = *static_cast<std::vector<char>*>(all);
+            before.insert(before.end(), more, more + size);
+          },
+          &bytes};
 }
 
-inline void append_text(void* text, const char* more, std::size_t size) {
-  static_cast<std::string*>(text)->append(more, size);
+inline SphparamBytesSink into(std::string& text) {
+  return {[](void* all, const char* more, std::size_t size) {
+            static_cast<std::string*>(all)->append(more, size);
+          },
+          &text};
 }
 
-inline void append_pair(void* texts, const char* name, const char* value) {
-  static_cast<ImageTexts*>(texts)->emplace_back(name, value);
+inline SphparamTextSink into(ImageTexts& texts) {
+  return {[](void* all, const char* name, const char* value) {
+            static_cast<ImageTexts*>(all)->emplace_back(name, value);
+          },
+          &texts};
 }
 
 }  // namespace sphparam

@@ -66,7 +66,7 @@ std::vector<char> encode_webp(const Image& image, const WebpOptions& options) {
                                   .quality = options.quality};
   std::vector<char> bytes;
   std::string error;
-  if (image_codecs().encode_webp(&described, append_bytes, &bytes, append_text, &error) != 0)
+  if (image_codecs().encode_webp(&described, into(bytes), into(error)) != 0)
     throw_told("cannot encode the image: ", error);
   require_kept(bytes, samples, described);
   return bytes;

@@ -15,13 +15,9 @@ namespace sphparam {
 /// A file of the caller's, as OpenImageIO writes it or reads it.
 class CallersFile : public OIIO::Filesystem::IOProxy {
  public:
-  CallersFile(Mode mode, SphparamBytesAt write_at, SphparamBytesFrom read_from, void* context,
-              size_t size)
-      : IOProxy("", mode),
-        write_at_(write_at),
-        read_from_(read_from),
-        context_(context),
-        size_(size) {}
+  explicit CallersFile(const SphparamBytesAt& written) : IOProxy("", Write), written_(written) {}
+  CallersFile(const SphparamBytesFrom& read, size_t size)
+      : IOProxy("", Read), read_(read), size_(size) {}
 
   const char* proxytype() const override { return "callers_file"; }
   size_t write(const void* bytes, size_t size) override {
@@ -37,13 +33,13 @@ class CallersFile : public OIIO::Filesystem::IOProxy {
   /// Chunks that go behind the head of a PNG, whose encoder does not know of them.
   void add_png_texts(std::string chunks) { png_texts_ = std::move(chunks); }
   size_t pwrite(const void* bytes, size_t size, int64_t offset) override {
-    if (write_at_(context_, offset, bytes, size) != 0) return 0;
+    if (written_.write(written_.context, offset, bytes, size) != 0) return 0;
     size_ = std::max(size_, static_cast<size_t>(offset) + size);
     return size;
   }
   size_t read(void* bytes, size_t size) override { return advanced(pread(bytes, size, m_pos)); }
   size_t pread(void* bytes, size_t size, int64_t offset) override {
-    return read_from_(context_, offset, bytes, size);
+    return read_.read(read_.context, offset, bytes, size);
   }
   bool seek(int64_t offset) override {
     m_pos = offset;
@@ -57,10 +53,9 @@ class CallersFile : public OIIO::Filesystem::IOProxy {
     return count;
   }
 
-  SphparamBytesAt write_at_;
-  SphparamBytesFrom read_from_;
-  void* context_;
-  size_t size_;
+  SphparamBytesAt written_ = {};
+  SphparamBytesFrom read_ = {};
+  size_t size_ = 0;
   std::string png_texts_;
 };
 

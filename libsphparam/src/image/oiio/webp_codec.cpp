@@ -9,6 +9,7 @@
 #include <exception>
 #include <memory>
 #include <new>
+#include <stdexcept>
 #include <string>
 
 namespace {
@@ -16,16 +17,10 @@ namespace {
 constexpr int lossless_level = 6;  // of libwebp, 0 to 9: slower and smaller
 constexpr int lossy_method = 5;    // of libwebp, 0 to 6, likewise
 
-/// Where what went wrong is told.
-struct Complaint {
-  SphparamBytesSink sink;
-  void* context;
-
-  int operator()(const std::string& why) const {
-    sink(context, why.data(), why.size());
-    return 1;
-  }
-};
+int complain(SphparamBytesSink error, const std::string& why) {
+  error.take(error.context, why.data(), why.size());
+  return 1;
+}
 
 /// Colours beneath what is transparent are kept too: they bleed where texels are mixed.
 bool configure(const SphparamWebp& image, WebPConfig& config) {
@@ -69,47 +64,42 @@ bool take_samples(WebPPicture& picture, const SphparamWebp& image) {
 
 }  // namespace
 
-std::optional<WebpHead> webp_head(const char* bytes, size_t size) {
+std::optional<WebpHead> webp_head(std::string_view bytes) {
   WebPBitstreamFeatures features;
-  const auto* const data = reinterpret_cast<const std::uint8_t*>(bytes);
-  if (WebPGetFeatures(data, size, &features) != VP8_STATUS_OK || features.has_animation)
+  const auto* const data = reinterpret_cast<const std::uint8_t*>(bytes.data());
+  if (WebPGetFeatures(data, bytes.size(), &features) != VP8_STATUS_OK || features.has_animation)
     return std::nullopt;
   return WebpHead{features.width, features.height, features.has_alpha ? 4 : 3};
 }
 
-int decode_webp(const WebpHead& head, const char* bytes, size_t size, SphparamPixelRoom room,
-                void* room_context, SphparamBytesSink error, void* error_context) {
-  const Complaint complain{error, error_context};
-  const auto* const data = reinterpret_cast<const std::uint8_t*>(bytes);
+void decode_webp(const WebpHead& head, std::string_view bytes, SphparamPixelRoom room) {
+  const auto* const data = reinterpret_cast<const std::uint8_t*>(bytes.data());
   const auto decode = head.channels == 4 ? WebPDecodeRGBA : WebPDecodeRGB;
   int width = 0, height = 0;
-  const std::unique_ptr<std::uint8_t, void (*)(void*)> samples(decode(data, size, &width, &height),
-                                                               WebPFree);
+  const std::unique_ptr<std::uint8_t, void (*)(void*)> samples(
+      decode(data, bytes.size(), &width, &height), WebPFree);
   if (!samples || width != head.width || height != head.height)
-    return complain("a WebP image that is broken or cut short");
-  float* const pixels = room(room_context, head.width, head.height, head.channels);
-  if (!pixels) return complain(sphparam_image_no_memory);
+    throw std::runtime_error("a WebP image that is broken or cut short");
+  float* const pixels = room.make(room.context, head.width, head.height, head.channels);
+  if (!pixels) throw std::runtime_error(sphparam_image_no_memory);
   const int row = head.width * head.channels;
   for (std::ptrdiff_t y = 0; y < head.height; ++y) {
     OIIO::convert_pixel_values(OIIO::TypeDesc::UINT8, samples.get() + y * row,
                                OIIO::TypeDesc::FLOAT, pixels + y * row, row);
   }
-  return 0;
 }
 
-int encode_webp(const SphparamWebp* image, SphparamBytesSink bytes, void* context,
-                SphparamBytesSink error, void* error_context) try {
-  const Complaint complain{error, error_context};
+int encode_webp(const SphparamWebp* image, SphparamBytesSink bytes, SphparamBytesSink error) try {
   WebPConfig config;
   if (!configure(*image, config) || !WebPValidateConfig(&config))
-    return complain("libwebp does not take these settings");
+    return complain(error, "libwebp does not take these settings");
   Encoding encoding;
   if (!take_samples(encoding.picture, *image) || !WebPEncode(&config, &encoding.picture))
-    return complain("libwebp gave up: error " + std::to_string(encoding.picture.error_code));
-  bytes(context, reinterpret_cast<const char*>(encoding.file.mem), encoding.file.size);
+    return complain(error, "libwebp gave up: error " + std::to_string(encoding.picture.error_code));
+  bytes.take(bytes.context, reinterpret_cast<const char*>(encoding.file.mem), encoding.file.size);
   return 0;
 } catch (const std::bad_alloc&) {
-  return Complaint{error, error_context}(sphparam_image_no_memory);
+  return complain(error, sphparam_image_no_memory);
 } catch (const std::exception& e) {
-  return Complaint{error, error_context}(e.what());
+  return complain(error, e.what());
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 
 #include "image/oiio_module.h"
 
@@ -13,12 +14,10 @@ struct WebpHead {
 };
 
 /// Nothing for what is no WebP file, is cut short, or is an animation.
-std::optional<WebpHead> webp_head(const char* bytes, size_t size);
+std::optional<WebpHead> webp_head(std::string_view bytes);
 
-/// The samples as floats, as `SphparamImageTable::decode` gives them.
-int decode_webp(const WebpHead& head, const char* bytes, size_t size, SphparamPixelRoom room,
-                void* room_context, SphparamBytesSink error, void* error_context);
+/// The samples as floats, as `SphparamImageTable::decode` gives them. Throws: std::runtime_error.
+void decode_webp(const WebpHead& head, std::string_view bytes, SphparamPixelRoom room);
 
 /// As `SphparamImageTable::encode_webp`.
-int encode_webp(const SphparamWebp* image, SphparamBytesSink bytes, void* context,
-                SphparamBytesSink error, void* error_context);
+int encode_webp(const SphparamWebp* image, SphparamBytesSink bytes, SphparamBytesSink error);
