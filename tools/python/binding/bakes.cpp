@@ -17,26 +17,6 @@
 namespace sphparam::python {
 namespace {
 
-const char* word_of(Interpolation interpolation) {
-  return interpolation == Interpolation::Uv ? "uv" : "sphere";
-}
-
-const char* word_of(TextureFilter filter) {
-  switch (filter) {
-    case TextureFilter::Nearest:
-      return "nearest";
-    case TextureFilter::Bilinear:
-      return "bilinear";
-    case TextureFilter::Bicubic:
-      break;
-  }
-  return "bicubic";
-}
-
-const char* word_of(TextureWrap wrap) {
-  return wrap == TextureWrap::Repeat ? "repeat" : wrap == TextureWrap::Mirror ? "mirror" : "clamp";
-}
-
 /// The body whose surface it is, and the directions of its longitudes.
 void take_body(Settings& settings, FieldOptions& fields) {
   std::string body;
@@ -61,8 +41,9 @@ void take_fields(Settings& settings, FieldOptions& fields) {
       .take("max_ray_distance", fields.max_ray_distance)
       .take("range", fields.scalar_range)
       .take("filter", fields.filter,
-            {TextureFilter::Nearest, TextureFilter::Bilinear, TextureFilter::Bicubic},
-            [](TextureFilter filter) { return word_of(filter); });
+            {{"nearest", TextureFilter::Nearest},
+             {"bilinear", TextureFilter::Bilinear},
+             {"bicubic", TextureFilter::Bicubic}});
 }
 
 BakeSettings bake_settings(const py::dict& values) {
@@ -74,18 +55,21 @@ BakeSettings bake_settings(const py::dict& values) {
       .take("refine_poles", made.refine_poles)
       .take("mip", made.mip)
       .take("threads", made.threads)
-      .take("interpolation", made.interpolation, {Interpolation::Uv, Interpolation::Sphere},
-            [](Interpolation interpolation) { return word_of(interpolation); });
-  settings.take("wrap", made.wrap, {TextureWrap::Repeat, TextureWrap::Mirror, TextureWrap::Clamp},
-                [](TextureWrap wrap) { return word_of(wrap); });
+      .take("interpolation", made.interpolation,
+            {{"uv", Interpolation::Uv}, {"sphere", Interpolation::Sphere}})
+      .take("wrap", made.wrap,
+            {{"repeat", TextureWrap::Repeat},
+             {"mirror", TextureWrap::Mirror},
+             {"clamp", TextureWrap::Clamp}});
   take_fields(settings, made.fields);
   std::string convention = info_of(made.convention).name, depth;
   settings.take("convention", convention).take("depth", depth);
   made.convention = convention_of(convention);
   if (!depth.empty()) {
-    made.depth = named(
-        depth, {SampleType::Uint8, SampleType::Uint16, SampleType::Half, SampleType::Float},
-        [](SampleType type) { return name_of(type); }, "depth");
+    made.depth = chosen(
+        depth,
+        by_name({SampleType::Uint8, SampleType::Uint16, SampleType::Half, SampleType::Float}),
+        "depth");
   }
   const Mapped* target = nullptr;
   settings.take("target", target);

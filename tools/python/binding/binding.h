@@ -131,16 +131,27 @@ py::list as_list(const std::vector<MeshDefect>& defects);
 py::list as_list(const std::vector<RepairAction>& actions);
 py::list as_list(const std::vector<HandleLoop>& loops);
 
-/// The value that a word stands for; the words are the library's own.
-template <class Value, class Name>
-Value named(const std::string& word, std::initializer_list<Value> values, const Name& name,
-            const char* what) {
+/// Words, and what they stand for.
+template <class Value>
+using Choices = std::vector<std::pair<std::string, Value>>;
+
+/// Under the library's own words.
+template <class Value>
+Choices<Value> by_name(std::initializer_list<Value> values) {
+  Choices<Value> choices;
+  for (const Value value : values) choices.emplace_back(name_of(value), value);
+  return choices;
+}
+
+/// Throws: py::value_error, which tells the words.
+template <class Value>
+Value chosen(const std::string& word, const Choices<Value>& choices, const char* argument) {
   std::string known;
-  for (const Value value : values) {
-    if (name(value) == word) return value;
-    known += (known.empty() ? "'" : ", '") + std::string(name(value)) + "'";
+  for (const auto& [name, value] : choices) {
+    if (name == word) return value;
+    known += (known.empty() ? "'" : ", '") + name + "'";
   }
-  throw py::value_error(std::string(what) + ": no '" + word + "' among " + known);
+  throw py::value_error(std::string(argument) + ": no '" + word + "' among " + known);
 }
 
 /// Whether all numbers are finite and all indices those of vertices.
@@ -169,10 +180,10 @@ class Settings {
     return *this;
   }
   /// The same for a word.
-  template <class Value, class Name>
-  Settings& take(const char* name, Value& value, std::initializer_list<Value> values,
-                 const Name& word) {
-    if (has(name)) value = named(cast<std::string>(name), values, word, name);
+  template <class Value>
+  Settings& take(const char* name, Value& value,
+                 const Choices<std::type_identity_t<Value>>& choices) {
+    if (has(name)) value = chosen(cast<std::string>(name), choices, name);
     return *this;
   }
   bool has(const char* name) {

@@ -11,14 +11,6 @@
 namespace sphparam::python {
 namespace {
 
-const char* word_of(ShapeKind shape) {
-  return shape == ShapeKind::Mesh ? "mesh" : shape == ShapeKind::Sphere ? "sphere" : "flat";
-}
-
-const char* word_of(Morph morph) {
-  return morph == Morph::None ? "none" : morph == Morph::Sphere ? "sphere" : "flat";
-}
-
 /// What is exported, and how the file holds it.
 struct ExportRequest {
   ExportOptions options;
@@ -52,10 +44,10 @@ ExportRequest request_of(const py::dict& values) {
       .take("quantise", options.quantise)
       .take("threads", options.threads)
       .take("compress", request.gltf.compress)
-      .take("shape", options.shape, {ShapeKind::Mesh, ShapeKind::Sphere, ShapeKind::Flat},
-            [](ShapeKind shape) { return word_of(shape); })
-      .take("morph", options.morph, {Morph::None, Morph::Sphere, Morph::Flat},
-            [](Morph morph) { return word_of(morph); });
+      .take("shape", options.shape,
+            {{"mesh", ShapeKind::Mesh}, {"sphere", ShapeKind::Sphere}, {"flat", ShapeKind::Flat}})
+      .take("morph", options.morph,
+            {{"none", Morph::None}, {"sphere", Morph::Sphere}, {"flat", Morph::Flat}});
   std::string convention = info_of(options.convention).name, up, front;
   std::vector<Mapped> coarser;
   bool embedded = false;
@@ -123,9 +115,10 @@ void write_page(const Mapped& mapped, const FilePath& path, int size, const std:
 
 void take_textures(Settings& settings, TextureFormat& format, int& quality) {
   using enum TextureFormat;
-  settings.take("webp_quality", quality)
-      .take("textures", format, {Given, Png, Jpeg, Webp, WebpLossless},
-            [](TextureFormat choice) { return word_of(choice); });
+  Choices<TextureFormat> formats;
+  for (const TextureFormat choice : {Given, Png, Jpeg, Webp, WebpLossless})
+    formats.emplace_back(word_of(choice), choice);
+  settings.take("webp_quality", quality).take("textures", format, formats);
 }
 
 void declare_exports(py::module_& module) {

@@ -53,13 +53,6 @@ SphereGrid grid_of(const GridRequest& request, int threads) {
   return grid;
 }
 
-SampleMode mode_named(const std::string& word) {
-  return named(
-      word,
-      {SampleMode::Point, SampleMode::Cell, SampleMode::Barycentric, SampleMode::AdapBaryArea},
-      [](SampleMode mode) { return name_of(mode); }, "sample");
-}
-
 /// How large an image in the layout of a grid is, if nobody says.
 constexpr std::int64_t usual_texels = std::int64_t{4096} * 2048;
 
@@ -77,7 +70,10 @@ Mapped remesh_on(const Mapped& mapped, const py::object& grid, const std::string
                  const std::vector<std::string>& transfer, bool adaptive, const std::string& uv,
                  int threads, const py::object& progress) {
   const GridRequest request = request_of(grid);
-  const SampleMode mode = mode_named(sample);
+  const SampleMode mode = chosen(sample,
+                                 by_name({SampleMode::Point, SampleMode::Cell,
+                                          SampleMode::Barycentric, SampleMode::AdapBaryArea}),
+                                 "sample");
   const bool own_texture = is_of_grid(uv, request, "uv");
   return call(progress, [=, source = mapped.mesh()](const Progress& report) mutable {
     SphereGrid made = grid_of(request, threads);
@@ -115,17 +111,11 @@ std::vector<Mapped> levels(const Mapped& mapped, int count, int threads,
   });
 }
 
-Scheme scheme_named(const std::string& word) {
-  return named(
-      word, {Scheme::Loop, Scheme::CatmullClark}, [](Scheme scheme) { return name_of(scheme); },
-      "scheme");
-}
-
 std::unique_ptr<Fitted> fit(const Mapped& mapped, const py::object& grid, const std::string& scheme,
                             const std::vector<std::string>& transfer, int threads,
                             const py::object& progress) {
   const GridRequest request = request_of(grid);
-  const Scheme surface = scheme_named(scheme);
+  const Scheme surface = chosen(scheme, by_name({Scheme::Loop, Scheme::CatmullClark}), "scheme");
   return call(progress, [=, source = mapped.mesh()](const Progress& report) {
     const SubdivisionFitOptions options{.scheme = surface, .threads = threads, .progress = report};
     const SphereGrid made = grid_of(request, threads);
@@ -140,11 +130,9 @@ std::unique_ptr<Fitted> fit(const Mapped& mapped, const py::object& grid, const 
 
 std::optional<ImageDepth> depth_named(const std::string& word) {
   if (word.empty()) return std::nullopt;
-  return named(
-      word, {ImageDepth::Half, ImageDepth::Float, ImageDepth::Uint16},
-      [](ImageDepth depth) {
-        return depth == ImageDepth::Half ? "half" : depth == ImageDepth::Float ? "float" : "uint16";
-      },
+  return chosen<ImageDepth>(
+      word,
+      {{"half", ImageDepth::Half}, {"float", ImageDepth::Float}, {"uint16", ImageDepth::Uint16}},
       "depth");
 }
 
@@ -186,12 +174,11 @@ py::dict displace(const Fitted& fitted, const FilePath& path, const FilePath& re
                   int height, const std::string& layout, const std::string& depth, int threads,
                   const py::object& progress) {
   const DisplacementFiles files{path, depth_named(depth), rebuilt};
-  const DisplacementLayout lies = named(
-      layout, {DisplacementLayout::Equirectangular, DisplacementLayout::Grid},
-      [](DisplacementLayout each) {
-        return each == DisplacementLayout::Grid ? "grid" : "equirectangular";
-      },
-      "layout");
+  const auto lies =
+      chosen<DisplacementLayout>(layout,
+                                 {{"equirectangular", DisplacementLayout::Equirectangular},
+                                  {"grid", DisplacementLayout::Grid}},
+                                 "layout");
   if (lies == DisplacementLayout::Grid) require_layout(fitted);
   const auto held = std::make_shared<const Fitted>(fitted);
   return as_dict(writing_call(progress, [=](const Progress& report) {

@@ -19,8 +19,8 @@ GroupOptions options_of(const py::dict& values) {
   Settings settings(values);
   settings
       .take("start", options.start,
-            {GroupStart::Ends, GroupStart::Rotation, GroupStart::Ellipsoid, GroupStart::Maps},
-            [](GroupStart start) { return name_of(start); })
+            by_name(
+                {GroupStart::Ends, GroupStart::Rotation, GroupStart::Ellipsoid, GroupStart::Maps}))
       .take("alike", options.alike)
       .take("hold", options.hold)
       .take("rounds", options.rounds)
@@ -28,8 +28,7 @@ GroupOptions options_of(const py::dict& values) {
       .take("scale", options.scale)
       .take("modes", options.modes)
       .take("energy", options.energy.kind,
-            {EnergyKind::SymmetricDirichlet, EnergyKind::AngleAndArea},
-            [](EnergyKind kind) { return name_of(kind); })
+            by_name({EnergyKind::SymmetricDirichlet, EnergyKind::AngleAndArea}))
       .take("threads", options.threads);
   settings.require_all_known();
   options.grid.reset();

@@ -64,28 +64,6 @@ py::tuple paint_texture(const Mapped& mapped, const FilePath& path, const std::s
   return py::make_tuple(owning(std::move(atlas.pixels), shape), as_texts(warnings));
 }
 
-const char* word_of(View view) {
-  return view == View::Mesh ? "mesh" : view == View::Sphere ? "sphere" : "both";
-}
-
-const char* word_of(Colouring colouring) {
-  switch (colouring) {
-    case Colouring::Own:
-      return "own";
-    case Colouring::Plain:
-      return "plain";
-    case Colouring::Normals:
-      return "normals";
-    case Colouring::Checker:
-      return "checker";
-    case Colouring::Area:
-      return "area";
-    case Colouring::Angle:
-      break;
-  }
-  return "angle";
-}
-
 /// What is drawn, and the image for the mesh's texture coordinates; empty: its own.
 struct Drawing {
   DrawingOptions options;
@@ -98,15 +76,17 @@ Drawing drawing_of(const py::dict& values) {
   Drawing drawing;
   DrawingOptions& made = drawing.options;
   Settings settings(values);
-  View view = View::Both;
-  settings.take("view", view, {View::Mesh, View::Sphere, View::Both},
-                [](View word) { return word_of(word); });
-  made.view = view;
+  made.view = View::Both;
   settings
+      .take("view", made.view,
+            {{"mesh", View::Mesh}, {"sphere", View::Sphere}, {"both", View::Both}})
       .take("colours", made.colouring,
-            {Colouring::Own, Colouring::Plain, Colouring::Normals, Colouring::Checker,
-             Colouring::Area, Colouring::Angle},
-            [](Colouring word) { return word_of(word); })
+            {{"own", Colouring::Own},
+             {"plain", Colouring::Plain},
+             {"normals", Colouring::Normals},
+             {"checker", Colouring::Checker},
+             {"area", Colouring::Area},
+             {"angle", Colouring::Angle}})
       .take_path("texture", drawing.texture)
       .take("scalar", made.scalar)
       .take("range", made.range)

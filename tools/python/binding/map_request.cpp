@@ -16,15 +16,12 @@ namespace {
 void take_method(Settings& settings, ParameterizeOptions& options) {
   settings
       .take("method", options.method,
-            {Method::Progressive, Method::Curvilinear, Method::Paper, Method::Radial},
-            [](Method method) { return name_of(method); })
-      .take("quality", options.quality, {Quality::Draft, Quality::Normal, Quality::Best},
-            [](Quality quality) { return name_of(quality); })
-      .take("balance", options.balance, {Balance::Lambda, Balance::Conformal, Balance::EqualArea},
-            [](Balance balance) { return name_of(balance); })
+            by_name({Method::Progressive, Method::Curvilinear, Method::Paper, Method::Radial}))
+      .take("quality", options.quality, by_name({Quality::Draft, Quality::Normal, Quality::Best}))
+      .take("balance", options.balance,
+            by_name({Balance::Lambda, Balance::Conformal, Balance::EqualArea}))
       .take("energy", options.energy.kind,
-            {EnergyKind::AngleAndArea, EnergyKind::SymmetricDirichlet},
-            [](EnergyKind kind) { return name_of(kind); })
+            by_name({EnergyKind::AngleAndArea, EnergyKind::SymmetricDirichlet}))
       .take("lambda", options.energy.lambda);
 }
 
@@ -33,10 +30,8 @@ void take_paper(Settings& settings, PaperSettings& paper) {
       .take("iterations", paper.iterations)
       .take("rings", paper.rings)
       .take("sweeps", paper.sweeps)
-      .take("weights", paper.weights, {WeightKind::MeanValue, WeightKind::Cotangent},
-            [](WeightKind kind) {
-              return kind == WeightKind::MeanValue ? "mean-value" : "cotangent";
-            });
+      .take("weights", paper.weights,
+            {{"mean-value", WeightKind::MeanValue}, {"cotangent", WeightKind::Cotangent}});
 }
 
 /// Where the map lies.

@@ -151,20 +151,13 @@ Mapped with_points(const Source& source, const py::array& rays, int threads) {
   });
 }
 
-FillersInFile fillers_named(const std::string& word) {
-  return named(
-      word, {FillersInFile::Marked, FillersInFile::Kept, FillersInFile::Left},
-      [](FillersInFile fillers) {
-        return fillers == FillersInFile::Marked ? "marked"
-               : fillers == FillersInFile::Kept ? "keep"
-                                                : "drop";
-      },
-      "holes");
-}
-
 /// Returns what the format had no place for.
 py::list save(const Mapped& mapped, const FilePath& path, const std::string& holes, int threads) {
-  const FillersInFile fillers = fillers_named(holes);
+  const auto fillers = chosen<FillersInFile>(holes,
+                                             {{"marked", FillersInFile::Marked},
+                                              {"keep", FillersInFile::Kept},
+                                              {"drop", FillersInFile::Left}},
+                                             "holes");
   return as_texts(writing_call(py::none(), [=, mesh = mapped.mesh()](const Progress&) {
     PendingFiles files;
     std::vector<std::string> losses = add_mapped(files, path, mesh, threads, {}, fillers);

@@ -41,8 +41,7 @@ MatchOptions options_of(const py::dict& values) {
   Settings settings(values);
   settings
       .take("energy", options.energy.kind,
-            {EnergyKind::SymmetricDirichlet, EnergyKind::AngleAndArea},
-            [](EnergyKind kind) { return name_of(kind); })
+            by_name({EnergyKind::SymmetricDirichlet, EnergyKind::AngleAndArea}))
       .take("lambda", options.energy.lambda)
       .take("search", options.search)
       .take("alike", options.alike)

@@ -33,8 +33,8 @@ RepairOptions repair_options(const py::dict& values) {
       .take("longest_handle", options.longest_handle)
       .take("longest_handle_length", options.longest_handle_length)
       .take("handle_choice", options.handle_choice,
-            {HandleChoice::Shortest, HandleChoice::Cut, HandleChoice::Fill, HandleChoice::Area},
-            [](HandleChoice choice) { return name_of(choice); });
+            by_name({HandleChoice::Shortest, HandleChoice::Cut, HandleChoice::Fill,
+                     HandleChoice::Area}));
   settings.require_all_known();
   return options;
 }
