@@ -115,6 +115,33 @@ TEST_CASE("repair: a component without area is left out of all, and the others a
   CHECK(folder.names() == std::vector<std::string>{"m.obj", "m_0001.sph.ply"});
 }
 
+TEST_CASE("repair: of all components a cavity stays a cavity") {
+  const Folder folder;
+  TriangleMesh cavity = icosphere(1);
+  cavity.positions *= 0.5;
+  cavity.triangles.col(1).swap(cavity.triangles.col(2));
+  TriangleMesh hollow = joined(icosphere(2), cavity, {0.25, 0, 0});
+  const double outer = inspect_mesh(icosphere(2)).volume;
+  const double inner = inspect_mesh(cavity).volume;
+  REQUIRE(inner < 0);
+  const std::string mesh = folder / "hollow.obj", out = folder / "out.sph.ply";
+  const auto run = [&](const std::string& repair) {
+    write_bytes(mesh, obj_text(hollow));
+    const Ended ended = sphparam_program({"map", mesh, repair, "--all-components", "-o", out});
+    REQUIRE(ended.code == 0);
+    CHECK(inspect_mesh(read_mesh(folder / "out_0001.sph.ply").mesh).volume == Approx(outer));
+    CHECK(inspect_mesh(read_mesh(folder / "out_0002.sph.ply").mesh).volume == Approx(inner));
+    return ended.err;
+  };
+  CHECK_THAT(run("--repair"), !Contains("turned over") && !Contains("inside out"));
+  hollow.triangles.col(1).swap(hollow.triangles.col(2));  // all of it, the cavity too
+  for (const char* repair : {"--repair", "--repair=orientation"}) {
+    const std::string told = run(repair);
+    const std::string line = "the whole surface turned over: it was inside out";
+    CHECK(told.find(line) != told.rfind(line));  // of both
+  }
+}
+
 TEST_CASE("repair: of several components all ways are told, and each that is typed works") {
   const Folder folder;
   const std::string mesh = folder / "ringed.obj", map = folder / "m.sph.ply";

@@ -191,10 +191,10 @@ MapOutcome compute(MeshSource source, const MapArguments& arguments, Session& se
 }
 
 /// The mesh, after the repairs that are wanted.
-MeshSource mended(MeshSource source, const MapArguments& arguments) try {
+MeshSource mended(MeshPart part, const MapArguments& arguments) try {
   const std::optional<RepairOptions> repairs = wanted_repairs(arguments.repair);
-  if (repairs) return repaired(std::move(source), *repairs);
-  return source;
+  if (repairs) return repaired_part(std::move(part), *repairs);
+  return std::move(part.source);
 } catch (const NoSuchComponent& error) {
   throw UsageMistake(std::string("--component: ") + error.what());
 }
@@ -202,7 +202,7 @@ MeshSource mended(MeshSource source, const MapArguments& arguments) try {
 MeshSource read_mended(const MapArguments& arguments, Session& session) {
   MeshSource source = sphparam::read_source(arguments.input, limits_for(arguments.repair));
   attach_data_files(source.file, source.path, arguments.data, MissingValues::LeftOut, session);
-  return mended(std::move(source), arguments);
+  return mended({std::move(source)}, arguments);
 }
 
 int run_map(MapArguments& arguments) {
@@ -210,7 +210,7 @@ int run_map(MapArguments& arguments) {
   Session session(arguments);
   if (arguments.all_components) {
     session.hold_signals();
-    return run_map_of_parts(arguments, session, [&](MeshSource part) {
+    return run_map_of_parts(arguments, session, [&](MeshPart part) {
       return compute(mended(std::move(part), arguments), arguments, session);
     });
   }

@@ -16,7 +16,6 @@
 #include "number_text.h"
 #include "reports/map_wording.h"
 #include "sphparam/errors.h"
-#include "sphparam/io/components.h"
 #include "sphparam/io/paths.h"
 
 namespace sphparam::cli {
@@ -47,7 +46,7 @@ std::string reasons_of(const MeshError& error) {
 class PartsRun {
  public:
   PartsRun(const MapArguments& arguments, Session& session,
-           const std::function<MapOutcome(MeshSource)>& map)
+           const std::function<MapOutcome(MeshPart)>& map)
       : arguments_(arguments), session_(session), map_(map) {}
 
   int run() {
@@ -87,7 +86,7 @@ class PartsRun {
     const std::string name = name_of(number, part);
     const double share = part.area_share;
     try {
-      MapOutcome outcome = map_(std::move(part.source));
+      MapOutcome outcome = map_(std::move(part));
       session_.console.say(name + ":");
       tell_stages(outcome, session_.console);
       add(number, outcome);
@@ -140,7 +139,7 @@ class PartsRun {
 
   const MapArguments& arguments_;
   Session& session_;
-  const std::function<MapOutcome(MeshSource)>& map_;
+  const std::function<MapOutcome(MeshPart)>& map_;
   size_t count_ = 0, written_ = 0;
   double lost_ = 0;
   std::string mark_;
@@ -154,7 +153,7 @@ class PartsRun {
 }  // namespace
 
 int run_map_of_parts(const MapArguments& arguments, Session& session,
-                     const std::function<MapOutcome(MeshSource)>& map) {
+                     const std::function<MapOutcome(MeshPart)>& map) {
   return PartsRun(arguments, session, map).run();
 }
 

@@ -172,7 +172,7 @@ class Surveyor {
     for (std::size_t i = 0; i < all; ++i) {
       const std::string name = "component " + std::to_string(i + 1) + " (" +
                                percent(parts[i].area_share) + " of the area)";
-      std::string why = why_not(std::move(parts[i].source), repairs, folds);
+      std::string why = why_not(std::move(parts[i]), repairs, folds);
       if (why.empty()) {
         ++mapped;
       } else {
@@ -190,9 +190,9 @@ class Surveyor {
   }
 
   /// Empty: it maps. `folds`: a map was not certified, which ends `map` with an error.
-  std::string why_not(MeshSource part, const RepairOptions& repairs, bool& folds) {
+  std::string why_not(MeshPart part, const RepairOptions& repairs, bool& folds) {
     try {
-      certify(repaired(std::move(part), repairs));
+      certify(repaired_part(std::move(part), repairs));
       return "";
     } catch (const MeshError& error) {
       return joined(messages(error.defects()), "; ");

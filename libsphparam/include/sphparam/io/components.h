@@ -26,6 +26,11 @@ RepairOptions before_components(RepairOptions repairs);
 std::vector<MeshPart> connected_parts(MeshSource source,
                                       const RepairOptions& repairs = RepairOptions::none());
 
+/// A part after repairs of its own, as `repaired` mends a mesh; a cavity stays one: with
+/// `orientation` its faces look into it, and it is not told to be inside out. Throws: as
+/// `repaired`.
+MeshSource repaired_part(MeshPart part, RepairOptions repairs);
+
 /// What the components of a mesh need to be mapped each by itself, as `map --all-components` does.
 struct PartsTrial {
   long parts = 0, mended = 0;  // of all; of those, that can be mapped then

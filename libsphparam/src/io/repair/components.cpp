@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "io/repair/mesh_part.h"
+#include "io/repair/repaired_file.h"
 #include "mesh/cavities.h"
 #include "mesh/flat_face.h"
 #include "mesh/triangle_geometry.h"
@@ -80,6 +81,26 @@ MeshSource source_of(const MeshSource& whole, const MeshFile& numbered, const Pa
   return source;
 }
 
+/// With all faces the other way round, as after a repair that does nothing else.
+MeshSource turned_over(MeshSource source) {
+  RepairedMesh turned{.mesh = source.file.mesh};
+  Triangles& triangles = turned.mesh.triangles;
+  triangles.col(1).swap(triangles.col(2));
+  for (Vertex v = 0; v < source.file.mesh.vertex_count(); ++v) turned.vertex_origin.push_back(v);
+  for (Face f = 0; f < source.file.mesh.face_count(); ++f) {
+    turned.face_origin.push_back(f);
+    for (const int k : {0, 2, 1}) turned.corner_origin.push_back(3 * f + k);
+  }
+  RepairAction action{.kind = RepairKind::TurnedOutward, .count = 1, .elements = {0}};
+  action.message = describe(action);
+  turned.actions.push_back(action);
+  source.file = repaired_file(source.file, turned);
+  source.repairs.push_back(std::move(action));
+  source.topology.emplace(triangles, static_cast<int>(source.file.mesh.vertex_count()));
+  source.inspection = inspect_mesh(source.file.mesh);
+  return source;
+}
+
 /// The places alone of a part. names: −1 for each vertex of the whole; for those of the part
 /// theirs then, as no other part has them.
 TriangleMesh mesh_of(const TriangleMesh& whole, const Part& part, std::vector<Vertex>& names) {
@@ -144,6 +165,16 @@ std::vector<MeshPart> connected_parts(MeshSource source, const RepairOptions& re
     result.push_back({source_of(source, numbered, part, is_cavity), share, is_cavity});
   }
   return result;
+}
+
+MeshSource repaired_part(MeshPart part, RepairOptions repairs) {
+  if (!part.is_cavity) return repaired(std::move(part.source), repairs);
+  // It is closed, and its faces run alike: there is nothing else to orient than inside and outside.
+  const bool looks_inward = std::exchange(repairs.orientation, false);
+  MeshSource source = repaired(std::move(part.source), repairs);
+  if (looks_inward && source.inspection.volume > 0) source = turned_over(std::move(source));
+  forgive_inside_out(source.inspection);
+  return source;
 }
 
 bool PartsTrial::are_enough() const {
