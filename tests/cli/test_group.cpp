@@ -5,6 +5,7 @@
 #include <sstream>
 #include <string>
 
+#include "mesh/vertex_normals.h"
 #include "program.h"
 #include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/mesh_reader.h"
@@ -316,14 +317,18 @@ TEST_CASE("group: numbers called as columns of its own get another name, and not
     INFO(name);
     CHECK(mean.find_vertex_property(name + "_mean")->values == std::vector(162, 1.5 * value));
     CHECK(mean.find_vertex_property(name + "_deviation")->values ==
-          std::vector(162, value / std::sqrt(2.0)));
+          std::vector(162, std::sqrt(value * value / 2)));
     CHECK(shape.find_vertex_property(name)->values == std::vector(162, 2 * value));
     header += "\t" + name + "_mean\t" + name + "_deviation";
   }
   CHECK_THAT(lines_of(bytes_of(out + "/vertices.tsv"))[0], Catch::EndsWith(header));
   // Balls of radius 1 and 2: the mean has 1.5.
-  for (const double value : mean.find_vertex_property("normal_deviation")->values)
-    CHECK(value == Approx(std::sqrt(0.5)).epsilon(1e-12));
+  const Points normals = vertex_normals(mean.mesh);
+  for (Vertex v = 0; v < mean.mesh.vertex_count(); ++v) {
+    const double along = normals.row(v).dot(mean.mesh.positions.row(v)) / 1.5;
+    CHECK(mean.find_vertex_property("normal_deviation")->values[size_t(v)] ==
+          Approx(along * std::sqrt(0.5)).epsilon(1e-12));
+  }
   for (const double value : shape.find_vertex_property("growth")->values)
     CHECK(value == Approx(4 / 2.25).epsilon(1e-12));
   CHECK(Json::parse(bytes_of(out + "/group.json"))["scalars"][1]["name"] ==
