@@ -7,7 +7,6 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "../io/folder.h"
 #include "image/image_codec.h"
 #include "io/files/base64.h"
 #include "report/viewer.h"
@@ -18,6 +17,7 @@
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/sphere/sphere_locator.h"
 #include "sphparam/sphere/spherical_coordinates.h"
+#include "support/folder.h"
 #include "support/glb_json.h"
 #include "support/joined.h"
 #include "support/leaks_of_others.h"

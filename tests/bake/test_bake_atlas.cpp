@@ -1,11 +1,11 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 #include <string>
 
 #include "image/image_codec.h"
 #include "sphparam/bake/bake.h"
+#include "support/folder.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -43,20 +43,19 @@ CornerTexcoords charts_of(int faces, int cells) {
 }  // namespace
 
 TEST_CASE("bake images: of an atlas neither its gutters nor its other charts are in a colour") {
-  std::string folder = (std::filesystem::temp_directory_path() / "sphparam_atlas_XXXXXX").string();
-  REQUIRE(mkdtemp(folder.data()));
+  const Folder folder;
   MeshFile file;
   file.mesh = icosphere(3);
   const int faces = static_cast<int>(file.mesh.face_count()), cells = 36;
-  write_image(folder + "/atlas.png", atlas_of(file.mesh, cells));
+  write_image(folder / "atlas.png", atlas_of(file.mesh, cells));
   file.corner_texcoords = charts_of(faces, cells);
   const SphereMap map{file.mesh.positions};
   const MappedMesh ball({.file = std::move(file), .map = map, .name = "ball"});
   for (const int width : {32, 128, 512}) {
     BakeSettings settings{.width = width, .threads = 1};
-    settings.texture = folder + "/atlas.png";
-    bake(ball, {{"basecolor", folder + "/c.png"}}, settings);
-    const Image baked = read_image(folder + "/c.png");
+    settings.texture = folder / "atlas.png";
+    bake(ball, {{"basecolor", folder / "c.png"}}, settings);
+    const Image baked = read_image(folder / "c.png");
     const int height = width / 2, near = height / 8;  // to the equator
     for (int y = 0; y < height; ++y) {
       if (std::abs(y - height / 2) <= near) continue;
@@ -67,5 +66,4 @@ TEST_CASE("bake images: of an atlas neither its gutters nor its other charts are
       }
     }
   }
-  std::filesystem::remove_all(folder);
 }

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -15,6 +14,7 @@
 #include "scenes.h"
 #include "sphparam/bake/bake.h"
 #include "sphparam/io/fillers.h"
+#include "support/folder.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -23,21 +23,6 @@ using namespace sphparam::tests;
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A folder that goes with its owner.
-struct Folder {
-  fs::path path;
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "sphparam_bake_XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()));
-    path = name;
-  }
-  ~Folder() { fs::remove_all(path); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  std::string operator/(const std::string& name) const { return (path / name).string(); }
-  long count() const { return std::distance(fs::directory_iterator(path), {}); }
-};
 
 std::string bytes_of(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
@@ -92,7 +77,7 @@ TEST_CASE("bake images: all that are asked for are there, with what was baked") 
                                   {"axes", folder / "axes.png"},
                                   {"curvature", folder / "c.tif"}},
                                  small);
-  CHECK(folder.count() == 4);
+  CHECK(folder.names().size() == 4);
   REQUIRE(report.images.size() == 4);
   CHECK(report.images[0].channels == 3);
   CHECK(report.images[1].sample_type == SampleType::Float);
@@ -111,7 +96,7 @@ TEST_CASE("bake images: a heat map has its scale beside it") {
   CHECK(report.images[0].range);
   CHECK(std::isnan(report.images[0].beyond));  // not counted
   CHECK(fs::exists(scale_path(folder / "area.png")));
-  CHECK(folder.count() == 2);
+  CHECK(folder.names().size() == 2);
 }
 
 TEST_CASE("bake images: a heat map of what heat has no colours for is numbers, which is told") {
@@ -354,7 +339,7 @@ TEST_CASE("bake images: where one cannot be baked none is written") {
   BakeSettings cancelled = small;
   cancelled.progress = [](std::string_view stage, double) { return stage != "write"; };
   CHECK_THROWS_AS(bake(egg(2), {{"position", folder / "p.png"}}, cancelled), Cancelled);
-  CHECK(folder.count() == 0);
+  CHECK(folder.names().size() == 0);
 }
 
 TEST_CASE("bake images: files of the caller's get their names when he says so") {
@@ -363,10 +348,10 @@ TEST_CASE("bake images: files of the caller's get their names when he says so") 
   PendingFiles files;
   bake(egg(2), {{"position", folder / "own.png"}}, small, files);
   bake(egg(2), {{"position", folder / "later.png"}}, small, files);
-  CHECK(folder.count() == 3);  // one file, and two that have no names yet
+  CHECK(folder.names().size() == 3);  // one file, and two that have no names yet
   CHECK_FALSE(fs::exists(folder / "later.png"));
   files.publish();
-  CHECK(folder.count() == 2);
+  CHECK(folder.names().size() == 2);
   CHECK(bytes_of(folder / "later.png") == bytes_of(folder / "own.png"));
 }
 

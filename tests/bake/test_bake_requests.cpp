@@ -1,9 +1,8 @@
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
 #include <filesystem>
 
 #include "sphparam/bake/bake.h"
+#include "support/folder.h"
 
 using namespace sphparam;
 namespace fs = std::filesystem;
@@ -20,10 +19,9 @@ TEST_CASE("bake requests: {map} is the field, without what no name can hold") {
 
 TEST_CASE("bake requests: a folder gets a file a field, whether it is there or says so") {
   CHECK(requests_for({"ao"}, "new/", "egg")[0].path == "new/egg_ao.png");
-  const fs::path folder =
-      fs::temp_directory_path() / ("sphparam_requests_" + std::to_string(getpid()));
-  CHECK(requests_for({"ao"}, folder, "egg")[0].path == folder.string());
-  fs::create_directories(folder);
-  CHECK(requests_for({"ao"}, folder, "egg")[0].path == (folder / "egg_ao.png").string());
-  fs::remove_all(folder);
+  const tests::Folder here;
+  const std::string folder = here / "there";
+  CHECK(requests_for({"ao"}, folder, "egg")[0].path == folder);
+  fs::create_directory(folder);
+  CHECK(requests_for({"ao"}, folder, "egg")[0].path == folder + "/egg_ao.png");
 }

@@ -16,6 +16,7 @@
 #include "sphparam/io/up_axis.h"
 #include "sphparam/sphere/radial_directions.h"
 #include "sphparam/sphere/spherical_coordinates.h"
+#include "support/folder.h"
 #include "support/test_meshes.h"
 
 // Where texels lie on the body, against rays from its centre; and what geographic programs are
@@ -90,19 +91,6 @@ Baked baked(const MappedMesh& mesh, const std::string& field, BakeSettings setti
 Vector3 direction_of(int row, int column, int width) {
   return to_cartesian({(column + 0.5) / width * 2 * pi, (row + 0.5) / (width / 2.0) * pi});
 }
-
-struct Folder {
-  fs::path path;
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "sphparam_body_XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()));
-    path = name;
-  }
-  ~Folder() { fs::remove_all(path); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  std::string operator/(const std::string& name) const { return (path / name).string(); }
-};
 
 std::string text_of(const std::string& path) {
   std::ifstream in(path, std::ios::binary);

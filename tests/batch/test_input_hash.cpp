@@ -7,6 +7,7 @@
 #include "batch/content_hash.h"
 #include "batch/input_hash.h"
 #include "io/files/gzip.h"
+#include "support/folder.h"
 
 /// What tells that an input is another one than before: its bytes, and the files it is read from.
 namespace sphparam::tests {
@@ -18,18 +19,15 @@ namespace fs = std::filesystem;
 class Inputs {
  public:
   Inputs() { fs::create_directories(folder_ / "maps"); }
-  ~Inputs() { fs::remove_all(folder_); }
-  Inputs(const Inputs&) = delete;
-  Inputs& operator=(const Inputs&) = delete;
 
   std::string write(const std::string& name, const std::string& bytes) const {
     std::ofstream(folder_ / name, std::ios::binary) << bytes;
-    return (folder_ / name).string();
+    return folder_ / name;
   }
 
   std::string link(const std::string& name, const std::string& target) const {
     fs::create_symlink(target, folder_ / name);
-    return (folder_ / name).string();
+    return folder_ / name;
   }
 
   /// Does the content of the file count for the input, from when it is there?
@@ -46,8 +44,7 @@ class Inputs {
   }
 
  private:
-  const fs::path folder_ =
-      fs::temp_directory_path() / ("sphparam_input_" + std::to_string(::getpid()));
+  const Folder folder_;
 };
 
 /// "RelativeFilename" and its text as a binary FBX has them.

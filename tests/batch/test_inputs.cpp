@@ -9,6 +9,7 @@
 #include "batch/shape_id.h"
 #include "batch/tables.h"
 #include "sphparam/batch/inputs.h"
+#include "support/folder.h"
 
 /// What a batch is made of, found in folders, lists and tables.
 namespace sphparam::tests {
@@ -19,11 +20,12 @@ namespace fs = std::filesystem;
 using Catch::Contains;
 
 struct TreeOfFiles {
-  fs::path root = fs::temp_directory_path() / ("sphparam-batch-" + std::to_string(::getpid()));
+  const Folder folder;
+  const fs::path root = folder.path;
+
   explicit TreeOfFiles(const std::vector<std::string>& files) {
     for (const std::string& file : files) write(file, "x");
   }
-  ~TreeOfFiles() { fs::remove_all(root); }
 
   void write(const std::string& name, const std::string& text) const {
     fs::create_directories((root / name).parent_path());

@@ -1,5 +1,3 @@
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
 #include <csignal>
 #include <cstring>
@@ -13,6 +11,7 @@
 #include "batch/staging.h"
 #include "sphparam/batch/results.h"
 #include "sphparam/batch/status.h"
+#include "support/folder.h"
 
 /// What is left of an item whose process ends in one way or another.
 namespace sphparam::tests {
@@ -33,9 +32,6 @@ class OneShape {
     plan_.items[0].input = hash_of_file(plan_.items[0].path);
     plan_.items[0].options = OptionsHash(plan_).of(plan_.items[0]);
   }
-  ~OneShape() { fs::remove_all(folder_); }
-  OneShape(const OneShape&) = delete;
-  OneShape& operator=(const OneShape&) = delete;
 
   ItemSetting setting() const { return {folder_, plan_, write_a_result}; }
   ItemSetting without_room() const { return {folder_, plan_, lacks_room}; }
@@ -77,8 +73,8 @@ class OneShape {
     return 6;
   }
 
-  const std::string folder_ =
-      (fs::temp_directory_path() / ("sphparam_item_" + std::to_string(::getpid()))).string();
+  const Folder own_;
+  const std::string folder_ = own_.path.string();
   const std::function<int(const BatchStep&, const BatchStepSetting&)> write_a_result = write_result;
   const std::function<int(const BatchStep&, const BatchStepSetting&)> lacks_room = find_no_room;
   const std::function<int(const BatchStep&, const BatchStepSetting&)> warns = warn;

@@ -1,21 +1,15 @@
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
-#include <filesystem>
 #include <fstream>
 
 #include "batch/options_hash.h"
+#include "support/folder.h"
 
 /// Whether what runs for an item is what ran before.
 namespace sphparam::tests {
 
-namespace fs = std::filesystem;
-
 TEST_CASE("options hash: the content of a file counts wherever a word names it from the root") {
-  const fs::path folder =
-      fs::temp_directory_path() / ("sphparam_options_" + std::to_string(::getpid()));
-  fs::create_directories(folder);
-  const std::string file = (folder / "c.png").string(), other = (folder / "d.png").string();
+  const Folder folder;
+  const std::string file = folder / "c.png", other = folder / "d.png";
   const auto write = [](const std::string& path, const std::string& text) {
     std::ofstream(path) << text;
   };
@@ -38,7 +32,6 @@ TEST_CASE("options hash: the content of a file counts wherever a word names it f
   const std::string before = hash_of("x" + file);
   write(file, "2");
   CHECK(hash_of("x" + file) == before);  // another file's name
-  fs::remove_all(folder);
 }
 
 }  // namespace sphparam::tests

@@ -1,11 +1,10 @@
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
 
 #include "batch/record.h"
 #include "sphparam/batch/results.h"
+#include "support/folder.h"
 #include "support/process.h"
 
 // The page of a batch in headless Chromium: a script in a copy of it uses its controls and tells
@@ -113,16 +112,10 @@ std::string visit(const fs::path& folder, const std::string& page, int width) {
       .messages;
 }
 
-struct TemporaryFolder {
-  fs::path path = fs::temp_directory_path() / ("sphparam-batch-page-" + std::to_string(::getpid()));
-  TemporaryFolder() { fs::create_directories(path); }
-  ~TemporaryFolder() { fs::remove_all(path); }
-};
-
 }  // namespace
 
 TEST_CASE("batch page in Chromium: a thousand shapes are sorted, filtered, searched and linked") {
-  const TemporaryFolder folder;
+  const Folder folder;
   const BatchPlan plan = write_batch(folder.path);
   std::string page =
       batch_page(folder.path.string(), plan, {.page_folder = folder.path.string(), .title = "all"});

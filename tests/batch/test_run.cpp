@@ -10,6 +10,7 @@
 #include "sphparam/batch/inputs.h"
 #include "sphparam/batch/plan.h"
 #include "sphparam/batch/run.h"
+#include "support/folder.h"
 
 /// A run as a call of the library.
 namespace sphparam::tests {
@@ -17,13 +18,12 @@ namespace sphparam::tests {
 namespace fs = std::filesystem;
 
 TEST_CASE("run: where it ends with an error, nothing of it goes on unattended") {
-  const std::string folder =
-      (fs::temp_directory_path() / ("sphparam_run_" + std::to_string(::getpid()))).string();
-  fs::create_directories(folder + "/in");
+  const Folder folder;
+  fs::create_directories(folder / "in");
   for (const char* const name : {"a", "b", "c"})
-    std::ofstream(folder + "/in/" + name + ".obj") << "v 0 0 0\n";
+    std::ofstream(folder / "in" + "/" + name + ".obj") << "v 0 0 0\n";
   const BatchPlan plan =
-      make_plan(find_batch_inputs({folder + "/in"}), {.steps = {{"map"}}, .chunk = 1});
+      make_plan(find_batch_inputs({folder / "in"}), {.steps = {{"map"}}, .chunk = 1});
   BatchRunOptions options{.run_step = [](const BatchStep&, const BatchStepSetting&) {
     ::pause();
     return 0;
@@ -35,12 +35,11 @@ TEST_CASE("run: where it ends with an error, nothing of it goes on unattended") 
     return true;
   };
   const auto handler = std::signal(SIGTERM, SIG_DFL);  // that of Catch is none for forks
-  CHECK_THROWS_WITH(run_batch(folder, plan, options), "of the caller's own");
+  CHECK_THROWS_WITH(run_batch(folder.path.string(), plan, options), "of the caller's own");
   std::signal(SIGTERM, handler);
   CHECK(asked == 3);
   CHECK(::waitpid(-1, nullptr, WNOHANG) == -1);
   CHECK(errno == ECHILD);
-  fs::remove_all(folder);
 }
 
 }  // namespace sphparam::tests

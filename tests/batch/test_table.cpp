@@ -1,5 +1,3 @@
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
@@ -7,6 +5,7 @@
 #include "batch/record.h"
 #include "batch/tables.h"
 #include "sphparam/batch/results.h"
+#include "support/folder.h"
 
 /// What of the reports of steps stands in the table.
 namespace sphparam::tests {
@@ -15,16 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct TemporaryFolder {
-  fs::path path =
-      fs::temp_directory_path() / ("sphparam-batch-table-" + std::to_string(::getpid()));
-  TemporaryFolder() { fs::create_directories(path); }
-  ~TemporaryFolder() { fs::remove_all(path); }
-};
-
 /// The row of a shape whose steps told this, cell by cell below the names of the columns.
 std::vector<std::pair<std::string, std::string>> row_of(BatchRecord record) {
-  const TemporaryFolder folder;
+  const Folder folder;
   const BatchItem item{.id = "a", .path = "/a.obj", .input = "x", .options = "y"};
   record.head.planned = "x";
   record.head.options = "y";

@@ -19,12 +19,6 @@ namespace sphparam::tests {
 
 namespace {
 
-fs::path new_folder() {
-  std::string name = (fs::temp_directory_path() / "sphparam-test-XXXXXX").string();
-  if (!mkdtemp(name.data())) throw std::runtime_error("cannot make " + name);
-  return name;
-}
-
 std::string number(double value) {
   char text[40];
   return {text, std::to_chars(text, text + sizeof text, value).ptr};
@@ -33,15 +27,14 @@ std::string number(double value) {
 }  // namespace
 
 Running::Running(const std::vector<std::string>& arguments, const std::string& standard_input,
-                 const std::string& output)
-    : folder_(new_folder()) {
+                 const std::string& output) {
   write_bytes(folder_ / "in", standard_input);
   std::vector<char*> words = {const_cast<char*>("sphparam")};
   for (const std::string& argument : arguments)
     words.push_back(const_cast<char*>(argument.c_str()));
   words.push_back(nullptr);
 
-  const std::string standard_output = output.empty() ? (folder_ / "out").string() : output;
+  const std::string standard_output = output.empty() ? folder_ / "out" : output;
   constexpr int create = O_WRONLY | O_CREAT | O_TRUNC;
   posix_spawn_file_actions_t streams;
   posix_spawn_file_actions_init(&streams);
@@ -70,10 +63,8 @@ Ended Running::wait() {
   int status = 0;
   if (waitpid(pid_, &status, 0) != pid_) throw std::runtime_error("no end of " SPHPARAM_PROGRAM);
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  const fs::path out = folder_ / "out";  // not there where it goes elsewhere
-  Ended ended = {code, fs::exists(out) ? bytes_of(out) : "", bytes_of(folder_ / "err")};
-  fs::remove_all(folder_);
-  return ended;
+  const std::string out = folder_ / "out";  // not there where it goes elsewhere
+  return {code, fs::exists(out) ? bytes_of(out) : "", bytes_of(folder_ / "err")};
 }
 
 std::string program_file() { return SPHPARAM_PROGRAM; }
@@ -93,20 +84,6 @@ int type_advice(const std::string& message, const std::string& folder) {
     at = end + 1;
   }
   return std::system(script.c_str()) == 0 ? count : -1;
-}
-
-Folder::Folder() : path_(new_folder()) {}
-
-Folder::~Folder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
-
-std::vector<std::string> Folder::names() const {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(path_)) names.push_back(entry.path().filename());
-  std::sort(names.begin(), names.end());
-  return names;
 }
 
 std::string bytes_of(const std::string& path) {

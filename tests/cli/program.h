@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sphparam/mesh/triangle_mesh.h"
+#include "support/folder.h"
 
 /// Running the `sphparam` program as its users do.
 namespace sphparam::tests {
@@ -30,7 +31,7 @@ class Running {
   Ended wait();
 
  private:
-  fs::path folder_;
+  Folder folder_;
   pid_t pid_ = 0;
 };
 
@@ -44,19 +45,6 @@ Ended sphparam_program(const std::vector<std::string>& arguments,
 /// Types what a message advises, the commands between `…`, one after the other in a folder. Returns
 /// how many there were; −1: one of them failed.
 int type_advice(const std::string& message, const std::string& folder);
-
-/// A folder of its own for a test, removed with everything in it at the end.
-class Folder {
- public:
-  Folder();
-  ~Folder();
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-  /// Names of what is in it, sorted.
-  std::vector<std::string> names() const;
-
- private:
-  fs::path path_;
-};
 
 /// Throws: std::runtime_error where there is no such file.
 std::string bytes_of(const std::string& path);

@@ -1,7 +1,5 @@
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <limits>
 #include <string>
 
@@ -12,6 +10,7 @@
 #include "sphparam/correspondence/match.h"
 #include "sphparam/io/vertex_data.h"
 #include "sphparam/parameterize.h"
+#include "support/folder.h"
 #include "support/mapped.h"
 #include "support/test_meshes.h"
 
@@ -19,21 +18,6 @@ using namespace sphparam;
 using namespace sphparam::tests;
 
 namespace {
-
-/// A folder that goes with its owner.
-struct Folder {
-  std::filesystem::path path;
-  Folder() {
-    std::string name =
-        (std::filesystem::temp_directory_path() / "sphparam_features_XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()));
-    path = name;
-  }
-  ~Folder() { std::filesystem::remove_all(path); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  std::string operator/(const std::string& name) const { return (path / name).string(); }
-};
 
 /// A pattern without symmetry, of places as wide as a fifth of the sphere.
 double pattern(const Vector3& x) {

@@ -6,8 +6,8 @@
 #include "displace/displacement_file.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/remesh/displacement.h"
+#include "support/folder.h"
 #include "support/mapped.h"
-#include "support/place.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -24,7 +24,7 @@ MappedMesh bumpy_ball() {
 }
 
 struct Written {
-  tests::Place folder;
+  tests::Folder folder;
   WrittenDisplacement told;
 
   Written(const std::string& grid, Scheme scheme, const std::string& image,

@@ -15,8 +15,8 @@
 #include "sphparam/gltf/export.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/safe_file.h"
+#include "support/folder.h"
 #include "support/glb_json.h"
-#include "support/place.h"
 #include "support/test_meshes.h"
 
 /// What a program gets that links the library: mapped meshes in, files out.
@@ -52,7 +52,7 @@ TEST_CASE("export: a mesh made of another shows that one's colours where it carr
 }
 
 TEST_CASE("export: far from the origin positions are as fine as near it, and a node moves them") {
-  const Place place;
+  const Folder folder;
   const Eigen::RowVector3d far(391234.25, 5821456.5, 34.125);
   MeshFile file = mapped_egg(3).file();
   for (const bool quantise : {false, true}) {
@@ -62,8 +62,8 @@ TEST_CASE("export: far from the origin positions are as fine as near it, and a n
     options.quantise = quantise;
     options.coarser.push_back(
         MappedMesh({.file = file, .map = mapped_egg(3).map(), .name = "scan.obj"}));
-    write_asset(place / "far.glb", make_asset(scan, options), {.quantise = quantise});
-    const Points read = read_mesh(place / "far.glb").mesh.positions;
+    write_asset(folder / "far.glb", make_asset(scan, options), {.quantise = quantise});
+    const Points read = read_mesh(folder / "far.glb").mesh.positions;
     // z up becomes y up.
     const double half_step = quantise ? 2.61 / 65535 / 2 : std::ldexp(1, -23);
     for (Vertex v = 0; v < file.mesh.vertex_count(); ++v) {
@@ -71,14 +71,14 @@ TEST_CASE("export: far from the origin positions are as fine as near it, and a n
       CHECK((read.row(v).transpose() - Vector3(p.x(), p.z(), -p.y())).cwiseAbs().maxCoeff() <=
             half_step);
     }
-    const auto nodes = json_of(bytes_of(place / "far.glb"))["nodes"];
+    const auto nodes = json_of(bytes_of(folder / "far.glb"))["nodes"];
     CHECK(nodes[0]["translation"] == nodes[1]["translation"]);
     if (!quantise) CHECK(nodes[0]["translation"] == nlohmann::json({391234, 34, -5821456}));
   }
   file.mesh.positions = mapped_egg(3).mesh().positions.rowwise() + Eigen::RowVector3d(0, 20, 0);
   const MappedMesh near({.file = file, .map = mapped_egg(3).map(), .name = "near.obj"});
-  write_asset(place / "near.glb", make_asset(near, small));
-  CHECK_FALSE(json_of(bytes_of(place / "near.glb"))["nodes"][0].contains("translation"));
+  write_asset(folder / "near.glb", make_asset(near, small));
+  CHECK_FALSE(json_of(bytes_of(folder / "near.glb"))["nodes"][0].contains("translation"));
 }
 
 TEST_CASE("export: colours of vertices that have several are baked, others written as they are") {
@@ -118,10 +118,10 @@ TEST_CASE("export: where the mesh's own colour is baked, what else its materials
   CHECK(look.materials[0].double_sided);
   CHECK(look.warnings == Names{"not carried: roughness, metallic, emission and alpha of its "
                                "materials: `bake --map channels` makes images of all"});
-  const Place place;
-  bake(mapped_egg(2), {{"normal-object", place / "orm.png"}}, {.width = 64});
+  const Folder folder;
+  bake(mapped_egg(2), {{"normal-object", folder / "orm.png"}}, {.width = 64});
   ExportOptions by_folder = small;
-  by_folder.look.folder = place.folder.string();
+  by_folder.look.folder = folder.path.string();
   CHECK(look_of(by_folder).warnings == Names{"not carried: emission and alpha of its materials: "
                                              "`bake --map channels` makes images of all"});
   file.channels[0].unlit = true;
@@ -131,7 +131,7 @@ TEST_CASE("export: where the mesh's own colour is baked, what else its materials
 
 TEST_CASE(
     "export: finish and unlit of the source's materials are carried, also by way of an image") {
-  const Place place;
+  const Folder folder;
   const auto egg_of = [](const MaterialChannels& said) {
     MeshFile file = mapped_egg(3).file();
     file.materials = {"m"};
@@ -153,35 +153,35 @@ TEST_CASE(
                                    .unlit = unlit,
                                    .finish = glass});
     const MaterialFinish seen = unlit ? MaterialFinish() : glass;
-    bake(egg, {{"basecolor", place / "a.png"}}, {.width = 64});
+    bake(egg, {{"basecolor", folder / "a.png"}}, {.width = 64});
     ExportOptions by_image = small;
-    by_image.look.texture = place / "a.png";
+    by_image.look.texture = folder / "a.png";
     for (const Look& look : {make_look(egg, small), make_look(mapped_egg(3), by_image)}) {
       CHECK(look.materials[0].finish == seen);
       CHECK(look.materials[0].unlit == unlit);
       CHECK(look.warnings.empty());
-      write_asset(place / "a.glb", make_asset(egg, look, small));
-      const MaterialChannels back = read_mesh(place / "a.glb").channels.at(0);
+      write_asset(folder / "a.glb", make_asset(egg, look, small));
+      const MaterialChannels back = read_mesh(folder / "a.glb").channels.at(0);
       CHECK(back.finish == seen);
       CHECK(back.unlit == unlit);
     }
     // Who names an image that light falls on wants light.
-    by_image.look.occlusion = place / "a.png";
+    by_image.look.occlusion = folder / "a.png";
     CHECK_FALSE(make_look(mapped_egg(3), by_image).materials[0].unlit);
   }
 }
 
 TEST_CASE("export: each image that is not twice as wide as high is told, whatever it shows") {
-  const Place place;
-  write_image(place / "square.png", Image(16, 16, 3));
-  write_image(place / "wide.png", Image(32, 16, 3));
+  const Folder folder;
+  write_image(folder / "square.png", Image(16, 16, 3));
+  write_image(folder / "wide.png", Image(32, 16, 3));
   using Member = std::string LookOptions::*;
   for (const Member member : {&LookOptions::texture, &LookOptions::normal, &LookOptions::occlusion,
                               &LookOptions::orm, &LookOptions::emissive}) {
     ExportOptions options = small;
-    options.look.*member = place / "wide.png";
+    options.look.*member = folder / "wide.png";
     CHECK(make_look(mapped_egg(2), options).warnings.empty());
-    options.look.*member = place / "square.png";
+    options.look.*member = folder / "square.png";
     CHECK(make_look(mapped_egg(2), options).warnings ==
           Names{"square.png: 16 × 16: an equirectangular image of the whole sphere is twice as "
                 "wide as high"});
@@ -246,39 +246,39 @@ TEST_CASE("export: the sphere of a map that stands as the mesh has its front in 
 }
 
 TEST_CASE("export: an .obj and a .ply stay in their axes and say which are asked for") {
-  const Place place;
+  const Folder folder;
   ExportOptions options = small;
   options.up = {.direction = Vector3::UnitX(), .front = -Vector3::UnitZ()};
   for (const char* name : {"a.obj", "a.ply"}) {
-    write_textured_mesh(place / name, mapped_egg(2), options);
-    const MeshFile file = read_mesh(place / name);
+    write_textured_mesh(folder / name, mapped_egg(2), options);
+    const MeshFile file = read_mesh(folder / name);
     CHECK(noted_up(file) == options.up);
     CHECK(file.mesh.positions.col(2).maxCoeff() > 1.29);
   }
 }
 
 TEST_CASE("export: the path decides what is written, and names of files are known before") {
-  const Place place;
+  const Folder folder;
   const Asset asset = make_asset(mapped_egg(2), small);
-  write_asset(place / "a.glb", asset);
-  CHECK(json_of(bytes_of(place / "a.glb"))["nodes"].size() == 1);
-  write_asset(place / "b.gltf", asset);
-  write_asset(place / "c.gltf", asset, {.container = GltfContainer::Embedded});
-  CHECK(place.names() == Names{"a.glb", "b.bin", "b.gltf", "b_checker.png", "c.gltf"});
-  CHECK(asset_files(place / "b.gltf", asset) ==
-        Names{place / "b.gltf", place / "b.bin", place / "b_checker.png"});
-  CHECK_THROWS_AS(write_asset(place / "d.obj", asset), std::invalid_argument);
+  write_asset(folder / "a.glb", asset);
+  CHECK(json_of(bytes_of(folder / "a.glb"))["nodes"].size() == 1);
+  write_asset(folder / "b.gltf", asset);
+  write_asset(folder / "c.gltf", asset, {.container = GltfContainer::Embedded});
+  CHECK(folder.names() == Names{"a.glb", "b.bin", "b.gltf", "b_checker.png", "c.gltf"});
+  CHECK(asset_files(folder / "b.gltf", asset) ==
+        Names{folder / "b.gltf", folder / "b.bin", folder / "b_checker.png"});
+  CHECK_THROWS_AS(write_asset(folder / "d.obj", asset), std::invalid_argument);
 }
 
 TEST_CASE("export: files that are not published leave nothing behind") {
-  const Place place;
+  const Folder folder;
   {
     PendingFiles files;
     const WrittenFiles written =
-        add_asset(files, place / "a.gltf", make_asset(mapped_egg(1), small));
+        add_asset(files, folder / "a.gltf", make_asset(mapped_egg(1), small));
     CHECK(written.size() == 3);
   }
-  CHECK(place.names().empty());
+  CHECK(folder.names().empty());
 }
 
 TEST_CASE("export: coarser meshes on the same sphere are levels of the one file") {
@@ -291,15 +291,15 @@ TEST_CASE("export: coarser meshes on the same sphere are levels of the one file"
 }
 
 TEST_CASE("export: what is certified as 16-bit numbers is written so") {
-  const Place place;
+  const Folder folder;
   ExportOptions options = small;
   options.quantise = true;
-  write_asset(place / "q.glb", make_asset(mapped_egg(2), options));
-  CHECK(json_of(bytes_of(place / "q.glb"))["extensionsUsed"][0] == "KHR_mesh_quantization");
+  write_asset(folder / "q.glb", make_asset(mapped_egg(2), options));
+  CHECK(json_of(bytes_of(folder / "q.glb"))["extensionsUsed"][0] == "KHR_mesh_quantization");
 }
 
 TEST_CASE("export: faces smaller than a step of 16-bit numbers keep their corners") {
-  const Place place;
+  const Folder folder;
   MeshFile file = mapped_egg(3).file();
   SphereMap map = mapped_egg(3).map();
   // The ring of a vertex comes within a hundred thousandth of it.
@@ -316,8 +316,8 @@ TEST_CASE("export: faces smaller than a step of 16-bit numbers keep their corner
   const auto places_of = [&](bool quantise, bool compress) {
     ExportOptions options = small;
     options.quantise = quantise;
-    write_asset(place / "q.glb", make_asset(tiny, options), {.compress = compress});
-    const MeshFile read = read_mesh(place / "q.glb");
+    write_asset(folder / "q.glb", make_asset(tiny, options), {.compress = compress});
+    const MeshFile read = read_mesh(folder / "q.glb");
     std::set<std::array<double, 3>> places;
     for (Vertex v = 0; v < read.mesh.vertex_count(); ++v)
       places.insert(
@@ -343,18 +343,18 @@ Asset with_a_tiny_triangle(Asset asset) {
 }
 
 TEST_CASE("export: 16-bit numbers that nobody certified are refused where they fold") {
-  const Place place;
+  const Folder folder;
   const Asset asset = make_asset(mapped_egg(2), small);
-  write_asset(place / "fits.glb", asset, {.quantise = true});
+  write_asset(folder / "fits.glb", asset, {.quantise = true});
   const Asset tiny = with_a_tiny_triangle(asset);
-  CHECK_THROWS_AS(write_asset(place / "tiny.glb", tiny, {.quantise = true}), NotCertifiedError);
-  CHECK_THROWS_WITH(write_asset(place / "tiny.glb", tiny, {.quantise = true}),
+  CHECK_THROWS_AS(write_asset(folder / "tiny.glb", tiny, {.quantise = true}), NotCertifiedError);
+  CHECK_THROWS_WITH(write_asset(folder / "tiny.glb", tiny, {.quantise = true}),
                     Catch::Contains("would fold in (u, v) as 16-bit numbers"));
-  write_asset(place / "floats.glb", tiny);
+  write_asset(folder / "floats.glb", tiny);
   Asset told = tiny;
   told.quantised = true;  // by whoever made it so, with a warning
-  write_asset(place / "told.glb", told);
-  CHECK(place.names() == Names{"fits.glb", "floats.glb", "told.glb"});
+  write_asset(folder / "told.glb", told);
+  CHECK(folder.names() == Names{"fits.glb", "floats.glb", "told.glb"});
 }
 
 TEST_CASE("export: a coarser mesh that seems to be on another sphere is told, others are not") {
@@ -386,14 +386,14 @@ TEST_CASE("export: an image that is made can be cancelled between its rows") {
 }
 
 TEST_CASE("export: a compressed file is read back as the asset, in an order that is smaller") {
-  const Place place;
+  const Folder folder;
   ExportOptions options = small;
   options.quantise = true;
   const Asset asset = make_asset(mapped_egg(4), options);
   const GltfOptions compressed{.quantise = true, .compress = true};
-  write_asset(place / "c.glb", asset, compressed);
-  CHECK(bytes_of(place / "c.glb").size() < glb_bytes(asset, compressed).size());
-  const MeshFile read = read_mesh(place / "c.glb");
+  write_asset(folder / "c.glb", asset, compressed);
+  CHECK(bytes_of(folder / "c.glb").size() < glb_bytes(asset, compressed).size());
+  const MeshFile read = read_mesh(folder / "c.glb");
   CHECK(read.mesh.face_count() == static_cast<Face>(asset.levels[0].indices.size() / 3));
 }
 
@@ -401,10 +401,10 @@ TEST_CASE("export: glass is as thick in a file of 16-bit numbers, whose node sca
   Asset asset = make_asset(mapped_egg(2), small);
   asset.materials.front().finish.transmission = 1;
   asset.materials.front().finish.thickness = 0.25;
-  const Place place;
+  const Folder folder;
   for (const bool quantise : {false, true}) {
-    write_asset(place / "a.glb", asset, {.quantise = quantise});
-    const MeshFile read = read_mesh(place / "a.glb");
+    write_asset(folder / "a.glb", asset, {.quantise = quantise});
+    const MeshFile read = read_mesh(folder / "a.glb");
     REQUIRE(read.channels.size() == 1);
     CHECK(read.channels.front().finish.thickness == Approx(0.25));
   }
@@ -423,21 +423,21 @@ TEST_CASE("export: a kept topology is told, with the triangles that fold") {
 }
 
 TEST_CASE("export: textured meshes are certified as read back, with the files they name") {
-  const Place place;
-  const TexturedFiles obj = write_textured_mesh(place / "a.obj", mapped_egg(2), small);
+  const Folder folder;
+  const TexturedFiles obj = write_textured_mesh(folder / "a.obj", mapped_egg(2), small);
   CHECK(obj.chart.stored.one_to_one());
   CHECK(obj.files.size() == 3);
-  write_textured_mesh(place / "b.ply", mapped_egg(2), small);
-  CHECK(place.names() == Names{"a.mtl", "a.obj", "a_checker.png", "b.ply", "b_checker.png"});
-  CHECK(read_mesh(place / "b.ply").corner_texcoords.has_value());
-  CHECK_THROWS_AS(write_textured_mesh(place / "c.stl", mapped_egg(1), small),
+  write_textured_mesh(folder / "b.ply", mapped_egg(2), small);
+  CHECK(folder.names() == Names{"a.mtl", "a.obj", "a_checker.png", "b.ply", "b_checker.png"});
+  CHECK(read_mesh(folder / "b.ply").corner_texcoords.has_value());
+  CHECK_THROWS_AS(write_textured_mesh(folder / "c.stl", mapped_egg(1), small),
                   std::invalid_argument);
 }
 
 TEST_CASE("export: what of a look an .obj has no words for is told") {
-  const Place place;
+  const Folder folder;
   const MappedMesh egg = mapped_egg(2);
-  CHECK(write_textured_mesh(place / "plain.obj", egg, small).warnings.empty());
+  CHECK(write_textured_mesh(folder / "plain.obj", egg, small).warnings.empty());
   Look look = make_look(egg, small);
   look.warnings = {"said before"};
   look.images.push_back({"normal", look.images.front().bytes});
@@ -445,17 +445,17 @@ TEST_CASE("export: what of a look an .obj has no words for is told") {
   look.materials.front().alpha_mode = AlphaMode::Mask;
   look.materials.front().finish.clearcoat = 1;
   PendingFiles files;
-  CHECK(add_textured_mesh(files, place / "a.obj", egg, look, small).warnings ==
+  CHECK(add_textured_mesh(files, folder / "a.obj", egg, look, small).warnings ==
         Names{"said before",
               "not carried: the image normal, how alpha is meant and KHR_materials_clearcoat: .glb "
               "and .gltf have room for that"});
 }
 
 TEST_CASE("export: what an image says of its light is taken if it is a number of glTF's") {
-  const Place place;
+  const Folder folder;
   const auto strength = [&](const std::string& said) {
     ExportOptions options = small;
-    options.look.emissive = place / "emissive.png";
+    options.look.emissive = folder / "emissive.png";
     Image lamp(4, 2, 3);
     lamp.pixels[0] = 1;
     write_image(options.look.emissive, lamp, {.metadata = {{"sphparam:strength", said}}});
@@ -469,15 +469,15 @@ TEST_CASE("export: a look that cannot be is an error that says why") {
   ExportOptions options = small;
   options.look.variants = {"chekcer"};
   CHECK_THROWS_AS(make_look(mapped_egg(1), options), LookError);
-  const Place place;
+  const Folder folder;
   options = small;
-  options.look.texture = place / "map.png";
+  options.look.texture = folder / "map.png";
   write_image(options.look.texture, Image(4, 2, 3), {.metadata = {{"sphparam:convention", "gis"}}});
   CHECK_THROWS_WITH(make_look(mapped_egg(1), options),
                     Catch::EndsWith("--convention gis shows it as it is"));
   options = small;
-  options.look.folder = place.folder.string();
-  for (const char* name : {"a_ao.png", "b_ao.png"}) write_image(place / name, Image(4, 2, 1));
+  options.look.folder = folder.path.string();
+  for (const char* name : {"a_ao.png", "b_ao.png"}) write_image(folder / name, Image(4, 2, 1));
   CHECK_THROWS_WITH(make_look(mapped_egg(1), options),
                     Catch::EndsWith("a_ao.png, b_ao.png: leave one of them there"));
 }
@@ -530,30 +530,30 @@ TEST_CASE("export: vertices that lie on others, which readers of glTF weld, are 
 }
 
 TEST_CASE("export: .obj and .ply have the object's comments, and .ply its numbers") {
-  const Place place;
-  CHECK(write_textured_mesh(place / "a.ply", scanned_egg(), small).warnings.empty());
-  const MeshFile ply = read_mesh(place / "a.ply");
+  const Folder folder;
+  CHECK(write_textured_mesh(folder / "a.ply", scanned_egg(), small).warnings.empty());
+  const MeshFile ply = read_mesh(folder / "a.ply");
   CHECK(ply.comments ==
         Names{"Inv. 12", "unit: m", "copyright The Museum", "TextureFile a_checker.png"});
   CHECK(ply.find_vertex_property("confidence"));
   CHECK(ply.base_colours.at(0).image == "a_checker.png");
-  CHECK(write_textured_mesh(place / "a.obj", scanned_egg(), small).warnings ==
+  CHECK(write_textured_mesh(folder / "a.obj", scanned_egg(), small).warnings ==
         Names{scalars_left_out});
-  const MeshFile obj = read_mesh(place / "a.obj");
+  const MeshFile obj = read_mesh(folder / "a.obj");
   CHECK(obj.comments == Names{"Inv. 12", "unit: m", "copyright The Museum",
                               "base colour of sphparam: texture a_checker.png"});
 }
 
 TEST_CASE("export: the image of an .obj or .ply has the colours of the vertices") {
-  const Place place;
+  const Folder folder;
   MeshFile file = mapped_egg(2).file();
   const auto count = static_cast<std::size_t>(file.mesh.vertex_count());
   for (const auto& [name, value] : {std::pair("red", 200), {"green", 30}, {"blue", 0}})
     file.set_vertex_property({name, ScalarType::Uint8, std::vector<double>(count, value)});
-  write_textured_mesh(place / "a.ply",
+  write_textured_mesh(folder / "a.ply",
                       MappedMesh({.file = std::move(file), .map = mapped_egg(2).map()}), small);
-  CHECK(place.names() == Names{"a.ply", "a_baked.png"});
-  const Image image = read_image(place / "a_baked.png");
+  CHECK(folder.names() == Names{"a.ply", "a_baked.png"});
+  const Image image = read_image(folder / "a_baked.png");
   for (int c = 0; c < 3; ++c)
     CHECK(std::lround(255 * image.pixel(9, 9)[c]) == std::array{200, 30, 0}[c]);
 }
@@ -569,22 +569,22 @@ TEST_CASE("export: a texture that is not with its mesh is told where something e
 }
 
 TEST_CASE("export: the library of another mesh stays, one of an export is replaced") {
-  const Place place;
-  std::ofstream(place / "a.mtl") << "newmtl wood\n";
+  const Folder folder;
+  std::ofstream(folder / "a.mtl") << "newmtl wood\n";
   try {
-    write_textured_mesh(place / "a.obj", mapped_egg(2), small);
+    write_textured_mesh(folder / "a.obj", mapped_egg(2), small);
     FAIL("replaced");
   } catch (const WriteError& error) {
-    CHECK(std::string(error.what()) == (place / "a.mtl") +
+    CHECK(std::string(error.what()) == (folder / "a.mtl") +
                                            ": is there, and is no library of an export: -o " +
-                                           (place / "a_sphparam.obj") + " leaves it as it is");
+                                           (folder / "a_sphparam.obj") + " leaves it as it is");
   }
-  CHECK(bytes_of(place / "a.mtl") == "newmtl wood\n");
-  CHECK_THROWS_AS(require_export_place(place / "a.obj"), WriteError);
-  CHECK_NOTHROW(require_export_place(place / "a.ply"));
-  std::filesystem::remove(place / "a.mtl");
+  CHECK(bytes_of(folder / "a.mtl") == "newmtl wood\n");
+  CHECK_THROWS_AS(require_export_place(folder / "a.obj"), WriteError);
+  CHECK_NOTHROW(require_export_place(folder / "a.ply"));
+  std::filesystem::remove(folder / "a.mtl");
   for (int i = 0; i < 2; ++i)
-    CHECK(write_textured_mesh(place / "a.obj", mapped_egg(2), small).files.size() == 3);
+    CHECK(write_textured_mesh(folder / "a.obj", mapped_egg(2), small).files.size() == 3);
 }
 
 }  // namespace sphparam::tests

@@ -1,5 +1,4 @@
 #include <catch2/catch.hpp>
-#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -11,7 +10,7 @@
 #include "io/files/base64.h"
 #include "sphparam/bake/bake.h"
 #include "sphparam/gltf/export.h"
-#include "support/place.h"
+#include "support/folder.h"
 #include "support/test_meshes.h"
 
 /// Images that are given to an export.
@@ -100,10 +99,10 @@ TEST_CASE("jpeg_head: what is not common, also behind a thumbnail, and what is c
 }
 
 TEST_CASE("asset images: a JPEG of CMYK becomes PNG and is told, one that is cut off is refused") {
-  const Place place;
+  const Folder folder;
   Words warnings;
-  write(place / "cmyk.jpg", cmyk_jpeg());
-  const GivenImage cmyk = read_asset_image(place / "cmyk.jpg", "basecolor", warnings);
+  write(folder / "cmyk.jpg", cmyk_jpeg());
+  const GivenImage cmyk = read_asset_image(folder / "cmyk.jpg", "basecolor", warnings);
   CHECK(image_kind(cmyk.asset.bytes).name() == "png"sv);
   REQUIRE(cmyk.pixels.channels == 3);
   CHECK(cmyk.pixels.pixels[0] > 0.95);
@@ -113,26 +112,26 @@ TEST_CASE("asset images: a JPEG of CMYK becomes PNG and is told, one that is cut
 
   warnings.clear();
   const std::string jpeg = common_jpeg();
-  write(place / "a.png", jpeg);  // whatever it is called
-  CHECK(read_asset_image(place / "a.png", "basecolor", warnings).asset.bytes == jpeg);
+  write(folder / "a.png", jpeg);  // whatever it is called
+  CHECK(read_asset_image(folder / "a.png", "basecolor", warnings).asset.bytes == jpeg);
   CHECK(warnings.empty());
-  write(place / "cut.jpg", jpeg.substr(0, jpeg.size() - 2));
-  CHECK_THROWS_WITH(read_asset_image(place / "cut.jpg", "basecolor", warnings),
+  write(folder / "cut.jpg", jpeg.substr(0, jpeg.size() - 2));
+  CHECK_THROWS_WITH(read_asset_image(folder / "cut.jpg", "basecolor", warnings),
                     Contains("cut.jpg: is cut off"));
   const std::size_t second =
       4 + 256 * static_cast<unsigned char>(jpeg[4]) + static_cast<unsigned char>(jpeg[5]);
   const std::string stray = jpeg.substr(0, second) + "ab" + jpeg.substr(second);
   CHECK_FALSE(jpeg_head(stray).found);
-  write(place / "stray.jpg", stray);
-  const GivenImage given = read_asset_image(place / "stray.jpg", "basecolor", warnings);
+  write(folder / "stray.jpg", stray);
+  const GivenImage given = read_asset_image(folder / "stray.jpg", "basecolor", warnings);
   CHECK(image_kind(given.asset.bytes).name() == "png"sv);
   CHECK(warnings ==
         Words{"stray.jpg: becomes PNG, for stray bytes lie between the segments of this JPEG"});
-  write(place / "cut_stray.jpg", stray.substr(0, stray.size() - 2));
-  CHECK_THROWS_WITH(read_asset_image(place / "cut_stray.jpg", "basecolor", warnings),
+  write(folder / "cut_stray.jpg", stray.substr(0, stray.size() - 2));
+  CHECK_THROWS_WITH(read_asset_image(folder / "cut_stray.jpg", "basecolor", warnings),
                     Contains("cut_stray.jpg: is cut off"));
-  write_image(place / "a.exr", Image(4, 2, 3), {.sample_type = SampleType::Float});
-  CHECK_THROWS_WITH(read_asset_image(place / "a.exr", "basecolor", warnings),
+  write_image(folder / "a.exr", Image(4, 2, 3), {.sample_type = SampleType::Float});
+  CHECK_THROWS_WITH(read_asset_image(folder / "a.exr", "basecolor", warnings),
                     Contains("glTF has no EXR: save it as .png"));
 }
 
@@ -143,10 +142,10 @@ TEST_CASE("asset images: alpha of strangers is a mask, blended, or none") {
   CHECK(alpha_mode_of(with_alphas({0, 1})) == AlphaMode::Mask);
   CHECK(alpha_mode_of(with_alphas({0, 0.5F, 1})) == AlphaMode::Blend);
 
-  const Place place;
+  const Folder folder;
   const auto mode = [&](const ImageWriteOptions& metadata) {
-    write_image(place / "a.png", with_alphas({0.5F, 1}), metadata);
-    const ExportOptions options{.look = {.texture = place / "a.png"}};
+    write_image(folder / "a.png", with_alphas({0.5F, 1}), metadata);
+    const ExportOptions options{.look = {.texture = folder / "a.png"}};
     return make_look(ball(1, "ball.ply"), options).materials.front().alpha_mode;
   };
   CHECK(mode({}) == AlphaMode::Blend);
@@ -155,51 +154,51 @@ TEST_CASE("asset images: alpha of strangers is a mask, blended, or none") {
 }
 
 TEST_CASE("asset images: what says that it is no normal map of glTF is refused") {
-  const Place place;
+  const Folder folder;
   const MappedMesh mesh = ball(2, "ball.ply");
   const auto bake_to = [&](const char* field, const char* name, bool down) {
     BakeSettings settings{.width = 64};
     settings.fields.normal_y_down = down;
-    bake(mesh, {{field, place / name}}, settings);
-    return place / name;
+    bake(mesh, {{field, folder / name}}, settings);
+    return folder / name;
   };
   CHECK(with_normals(mesh, bake_to("normal-tangent", "n.png", false)).warnings.empty());
   CHECK_THROWS_AS(with_normals(mesh, bake_to("normal-object", "o.png", false)), LookError);
-  CHECK_THROWS_WITH(with_normals(mesh, place / "o.png"),
+  CHECK_THROWS_WITH(with_normals(mesh, folder / "o.png"),
                     Contains("o.png shows normal-object") && Contains("--map normal-tangent"));
   CHECK_THROWS_AS(with_normals(mesh, bake_to("normal-tangent", "d.png", true)), LookError);
-  CHECK_THROWS_WITH(with_normals(mesh, place / "d.png"),
+  CHECK_THROWS_WITH(with_normals(mesh, folder / "d.png"),
                     Contains("+Y down (DirectX)") && Contains("--normal-y gl"));
-  write_image(place / "grey.png", Image(64, 32, 1));
-  CHECK_THROWS_WITH(with_normals(mesh, place / "grey.png"),
+  write_image(folder / "grey.png", Image(64, 32, 1));
+  CHECK_THROWS_WITH(with_normals(mesh, folder / "grey.png"),
                     Contains("grey.png has 1 channel, and a normal map has x, y and z"));
-  write_image(place / "of_strangers.png", Image(64, 32, 3));
-  CHECK(with_normals(mesh, place / "of_strangers.png").normals_given);
+  write_image(folder / "of_strangers.png", Image(64, 32, 3));
+  CHECK(with_normals(mesh, folder / "of_strangers.png").normals_given);
 }
 
 TEST_CASE("asset images: a normal map that was baked for another mesh is told") {
-  const Place place;
+  const Folder folder;
   const MappedMesh fine = ball(3, "fine.sph.ply"), low = ball(2, "low.ply");
-  bake(fine, {{"normal-tangent", place / "own.png"}}, {.width = 64, .source_name = "fine.glb"});
+  bake(fine, {{"normal-tangent", folder / "own.png"}}, {.width = 64, .source_name = "fine.glb"});
   BakeSettings settings{.width = 64, .source_name = "fine.glb"};
   settings.target = low;
-  bake(fine, {{"normal-tangent", place / "low.png"}}, settings);
-  CHECK(with_normals(fine, place / "own.png").warnings.empty());
-  CHECK(with_normals(low, place / "low.png").warnings.empty());
-  CHECK(with_normals(low, place / "own.png").warnings ==
+  bake(fine, {{"normal-tangent", folder / "low.png"}}, settings);
+  CHECK(with_normals(fine, folder / "own.png").warnings.empty());
+  CHECK(with_normals(low, folder / "low.png").warnings.empty());
+  CHECK(with_normals(low, folder / "own.png").warnings ==
         Words{"own.png: baked for fine.glb, not for low.ply: light falls wrong where that is "
               "another mesh or has another map, as a normal map is of one"});
-  REQUIRE(with_normals(fine, place / "low.png").warnings.size() == 1);
-  CHECK_THAT(with_normals(fine, place / "low.png").warnings[0], Contains("baked for low.ply, "));
+  REQUIRE(with_normals(fine, folder / "low.png").warnings.size() == 1);
+  CHECK_THAT(with_normals(fine, folder / "low.png").warnings[0], Contains("baked for low.ply, "));
 }
 
 TEST_CASE("look: images that light falls on are told where no light is wanted") {
-  const Place place;
-  write_image(place / "a_basecolor.png", Image(4, 2, 3));
-  write_image(place / "a_normal-tangent.png", Image(4, 2, 3));
-  write_image(place / "a_emissive.png", Image(4, 2, 3));
+  const Folder folder;
+  write_image(folder / "a_basecolor.png", Image(4, 2, 3));
+  write_image(folder / "a_normal-tangent.png", Image(4, 2, 3));
+  write_image(folder / "a_emissive.png", Image(4, 2, 3));
   ExportOptions options;
-  options.look.folder = place.folder.string();
+  options.look.folder = folder.path.string();
   CHECK(make_look(ball(1, "ball.ply"), options).warnings.empty());
   options.look.unlit = true;
   const Look look = make_look(ball(1, "ball.ply"), options);
@@ -208,12 +207,12 @@ TEST_CASE("look: images that light falls on are told where no light is wanted") 
         Words{"not carried: a_normal-tangent.png (normals) and a_emissive.png (emission): without "
               "light, colours alone are shown"});
   // A mesh without light has none to lose.
-  write_image(place / "a_basecolor.png", Image(4, 2, 3), {.metadata = {{"sphparam:unlit", "1"}}});
+  write_image(folder / "a_basecolor.png", Image(4, 2, 3), {.metadata = {{"sphparam:unlit", "1"}}});
   CHECK(make_look(ball(1, "ball.ply"), options).warnings.empty());
 }
 
 TEST_CASE("look: what is the same all over takes no image, or one texel, which is told") {
-  const Place place;
+  const Folder folder;
   const auto look_of = [&](const std::vector<float>& orm, const std::vector<float>& occlusion,
                            const std::vector<float>& light) {
     ExportOptions options;
@@ -221,8 +220,8 @@ TEST_CASE("look: what is the same all over takes no image, or one texel, which i
       if (colour.empty()) return ""s;
       Image image(8, 4, 3);
       for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = colour[i % 3];
-      write_image(place / name, image);
-      return place / name;
+      write_image(folder / name, image);
+      return folder / name;
     };
     options.look.orm = file("orm.png", orm);
     options.look.occlusion = file("ao.png", occlusion);

@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "support/folder.h"
 #include "support/places.h"
 #include "support/process.h"
 
@@ -52,16 +53,6 @@ std::vector<HostileFile> table() {
   return rows;
 }
 
-/// A new folder that is gone at the end.
-struct Scratch {
-  fs::path path;
-  Scratch() {
-    std::string name = (fs::temp_directory_path() / "sphparam_hostile_XXXXXX").string();
-    path = mkdtemp(name.data());
-  }
-  ~Scratch() { fs::remove_all(path); }
-};
-
 /// What one run did that it should not have; empty when all is well.
 std::string complaint_about(const ProcessEnd& end, const HostileFile& file) {
   if (end.timed_out) return "takes more than 10 seconds";
@@ -84,7 +75,8 @@ std::string try_values(const HostileFile& file, const fs::path& scratch) {
       run_process({SPHPARAM_PROGRAM, "repair", surface, "--data", values, "-o", output}, {},
                   {.seconds = most_seconds, .memory = most_memory});
   std::string complaint = complaint_about(repair, file);
-  if (!complaint.empty()) complaint = "repair " + file.name + " " + complaint + ": " + repair.messages;
+  if (!complaint.empty())
+    complaint = "repair " + file.name + " " + complaint + ": " + repair.messages;
   if (fs::exists(output) != (file.code == ok)) complaint += file.name + ": output is there or not";
   // Its own file says what it holds whatever the surface, or that it cannot be read.
   const ProcessEnd info = run_process({SPHPARAM_PROGRAM, "info", values}, {},
@@ -135,7 +127,7 @@ std::string try_all(const std::vector<HostileFile>& files, const fs::path& scrat
 TEST_CASE("hostile: every file of the corpus ends as its line of the table says") {
   const std::vector<HostileFile> files = table();
   REQUIRE(files.size() >= 300);
-  const Scratch scratch;
+  const Folder scratch;
   const std::string complaints = try_all(files, scratch.path);
   INFO(complaints);
   CHECK(complaints.empty());
@@ -158,7 +150,7 @@ TEST_CASE("hostile: the table and the folder name the same files") {
 }
 
 TEST_CASE("hostile: a survey of a folder of them comes to its end") {
-  const Scratch scratch;
+  const Folder scratch;
   fs::create_directory(scratch.path / "files");
   std::size_t count = 0;
   const std::vector<HostileFile> rows = table();

@@ -1,5 +1,3 @@
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
@@ -7,7 +5,6 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <new>
 #include <sstream>
@@ -17,6 +14,7 @@
 #include "image/image_codec.h"
 #include "image/open_module.h"
 #include "image/sinks.h"
+#include "support/folder.h"
 #include "support/leaks_of_others.h"
 
 using namespace sphparam;
@@ -303,12 +301,10 @@ TEST_CASE("image codec: a name's ending says the kind, of two spellings where th
 }
 
 TEST_CASE("image codec: a file's kind is its name's ending, in whatever case") {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path();
-  const std::string path =
-      (folder / ("sphparam_test_" + std::to_string(::getpid()) + ".PNG")).string();
+  const Folder folder;
+  const std::string path = folder / "a.PNG";
   write_image(path, ramp(4, 3, 3, 256));
   CHECK(same_pixels(read_image(path), ramp(4, 3, 3, 256)));
-  std::filesystem::remove(path);
   CHECK_THROWS_WITH(write_image("x.gif", ramp(4, 3, 3, 256)), Contains(".png or .exr"));
 }
 
@@ -391,23 +387,20 @@ TEST_CASE("image codec: the pixels of an EXR lie where its display window has th
 
 TEST_CASE("image codec: files are written and read by name, wrong names and types are refused") {
   const Image image = ramp(20, 10, 4, 256);
-  const auto folder =
-      std::filesystem::temp_directory_path() / ("sphparam_image_" + std::to_string(::getpid()));
-  std::filesystem::create_directory(folder);
-  const std::string path = (folder / "ramp.png").string();
+  const Folder folder;
+  const std::string path = folder / "ramp.png";
   write_image(path, image);
   CHECK(same_pixels(read_image(path), image));
   CHECK_THROWS_WITH(read_image(path, {.file_bytes = 10}), Contains("limit"));
-  CHECK_THROWS_WITH(read_image((folder / "absent.png").string()), Contains("absent.png"));
-  CHECK_THROWS_WITH(write_image((folder / "x.gif").string(), image), Contains(".png or .exr"));
-  CHECK_THROWS_AS(write_image((folder / "no" / "x.png").string(), image), ImageError);
+  CHECK_THROWS_WITH(read_image(folder / "absent.png"), Contains("absent.png"));
+  CHECK_THROWS_WITH(write_image(folder / "x.gif", image), Contains(".png or .exr"));
+  CHECK_THROWS_AS(write_image(folder / "no/x.png", image), ImageError);
   CHECK_THROWS_AS(encode_image(image, ImageFormat::Png, {.sample_type = SampleType::Float}),
                   ImageError);
   for (const Image& empty : {Image(), Image(0, 1, 1), Image(1, 0, 1), Image(1, 1, 0)})
     CHECK_THROWS_WITH(encode_image(empty, ImageFormat::Png), Contains("without pixels"));
   for (const ImageFormat format : {ImageFormat::Png, ImageFormat::Tiff})
     CHECK_THROWS_WITH(encode_image(Image(1, 1, 5), format), Contains("at most 4 channels, not 5"));
-  std::filesystem::remove_all(folder);
   CHECK(loaded_openimageio());
 }
 

@@ -2,7 +2,6 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "folder.h"
 #include "number_text.h"
 #include "reading.h"
 #include "sphparam/io/file_numbers.h"
@@ -10,6 +9,7 @@
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/io/vertex_data.h"
+#include "support/folder.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -79,8 +79,8 @@ VertexData values(std::size_t count) {
 }
 
 MeshSource read_text(const Folder& folder, const std::string& text) {
-  write_file(folder.file("x.obj"), text);
-  return read_source(folder.file("x.obj"));
+  write_file(folder / "x.obj", text);
+  return read_source(folder / "x.obj");
 }
 
 }  // namespace
@@ -179,8 +179,8 @@ TEST_CASE("file numbers: the count passes through the formats that keep the numb
   const Folder folder;
   const MeshSource source = read_text(folder, with_unused);
   for (const char* name : {"x.ply", "x.vtk", "x.vtp"}) {
-    write_mesh(folder.file(name), source.file);
-    const MeshSource back = read_source(folder.file(name));
+    write_mesh(folder / name, source.file);
+    const MeshSource back = read_source(folder / name);
     CHECK(vertices_of_file(back.file) == 6);
     MeshFile file = back.file;
     attach_data(file, values(6));
@@ -198,14 +198,14 @@ TEST_CASE("file numbers: a file whose numbers are another's says so, one that is
   const MeshSource source = read_text(folder, with_unused);
   CHECK_FALSE(says_so(source));  // the numbers are those of its own rows
   for (const char* name : {"x.ply", "x.vtk", "x.vtp"}) {
-    write_mesh(folder.file(name), source.file);
-    CHECK(says_so(read_source(folder.file(name))));
+    write_mesh(folder / name, source.file);
+    CHECK(says_so(read_source(folder / name)));
   }
   MeshFile whole;
   whole.mesh = tetrahedron();
   whole.set_vertex_property({"source_vertex", ScalarType::Int32, {0, 1, 2, 3}});
-  write_mesh(folder.file("whole.ply"), whole);
-  CHECK_FALSE(says_so(read_source(folder.file("whole.ply"))));
+  write_mesh(folder / "whole.ply", whole);
+  CHECK_FALSE(says_so(read_source(folder / "whole.ply")));
 }
 
 TEST_CASE("file numbers: what cannot be the number of vertices is none") {

@@ -5,13 +5,13 @@
 #include <utility>
 #include <vector>
 
-#include "folder.h"
 #include "sphparam/errors.h"
 #include "sphparam/io/certified_files.h"
 #include "sphparam/io/fillers.h"
 #include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/mesh_writer.h"
+#include "support/folder.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -70,14 +70,14 @@ TEST_CASE(
   for (const char* name : {"a.vtk", "a.vtp", "a.vtk.gz", "a.vtp.gz", "a.ply.gz"}) {
     const Folder folder;
     PendingFiles files;
-    CHECK_FALSE(tells(add_mesh(files, folder.file(name), file)));
+    CHECK_FALSE(tells(add_mesh(files, folder / name, file)));
     files.publish();
-    CHECK(fillers_of(read_mesh(folder.file(name))) == fillers_of(file));
+    CHECK(fillers_of(read_mesh(folder / name)) == fillers_of(file));
   }
   for (const char* name : {"a.obj", "a.off", "a.mz3", "a.white", "a.surf.gii"}) {
     const Folder folder;
     PendingFiles files;
-    CHECK(tells(add_mesh(files, folder.file(name), file)));
+    CHECK(tells(add_mesh(files, folder / name, file)));
   }
 }
 
@@ -117,9 +117,9 @@ TEST_CASE("fillers: a surface alone is refused for numbers that are not finite, 
   const auto says = [&](const std::string& what) {
     const MappedMesh ball({.file = file, .map = {icosphere(2).positions}});
     PendingFiles files;
-    CHECK_THROWS_AS(add_mapped(files, folder.file("a.ply"), ball, 1, {}, FillersInFile::Left),
+    CHECK_THROWS_AS(add_mapped(files, folder / "a.ply", ball, 1, {}, FillersInFile::Left),
                     UnmeasurableMesh);
-    CHECK_THROWS_WITH(add_mapped(files, folder.file("a.ply"), ball, 1, {}, FillersInFile::Left),
+    CHECK_THROWS_WITH(add_mapped(files, folder / "a.ply", ball, 1, {}, FillersInFile::Left),
                       Catch::Contains("a.ply: not written: " + what));
   };
   const Eigen::Index all = without_fillers(file).mesh.vertex_count();
@@ -130,7 +130,7 @@ TEST_CASE("fillers: a surface alone is refused for numbers that are not finite, 
   MeshFile plain = without_fillers(file);
   plain.mesh.positions(all - 1, 2) = infinity;
   PendingFiles files;
-  CHECK_THROWS_WITH(add_mesh(files, folder.file("a.ply"), plain),
+  CHECK_THROWS_WITH(add_mesh(files, folder / "a.ply", plain),
                     Catch::Contains("a.ply: not written: the position" + last));
 }
 
@@ -139,21 +139,20 @@ TEST_CASE("fillers: files of maps keep them marked, others get the surface alone
   const MappedMesh ball = mapped_ball();
   const auto written = [&](const std::string& name, FillersInFile fillers) {
     PendingFiles files;
-    const std::vector<std::string> losses =
-        add_mapped(files, folder.file(name), ball, 1, {}, fillers);
+    const std::vector<std::string> losses = add_mapped(files, folder / name, ball, 1, {}, fillers);
     files.publish();
     const std::int64_t left =
         std::ranges::count(losses,
                            "the surface alone, without the map: 30 fillers of holes left out") > 0
             ? 30
             : 0;
-    const MeshFile read = read_mesh(folder.file(name));
+    const MeshFile read = read_mesh(folder / name);
     CHECK(read.mesh.face_count() == ball.mesh().face_count() - left);
     return std::pair(left, read);
   };
   CHECK(written("a.sph.ply", FillersInFile::Marked).first == 0);
-  CHECK(fillers_of(read_mesh(folder.file("a.sph.ply"))) == ball.fillers());
-  CHECK(load_mapped(folder.file("a.sph.ply")).fillers() == ball.fillers());
+  CHECK(fillers_of(read_mesh(folder / "a.sph.ply")) == ball.fillers());
+  CHECK(load_mapped(folder / "a.sph.ply").fillers() == ball.fillers());
   CHECK(written("b.obj", FillersInFile::Marked).first == 30);
   CHECK(written("b.off", FillersInFile::Marked).first == 30);
   CHECK(written("c.obj", FillersInFile::Kept).first == 0);

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <numbers>
 
-#include "folder.h"
 #include "reading.h"
 #include "sphparam/errors.h"
 #include "sphparam/io/certified_files.h"
@@ -11,6 +10,7 @@
 #include "sphparam/io/map_files.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/verify_map.h"
+#include "support/folder.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -49,15 +49,15 @@ SphereMap gathered_map() {
 TEST_CASE("map_files: the sphere is written in every format, exactly but for GIFTI's floats") {
   const Folder folder;
   for (const char* name : {"s.ply", "s.obj", "s.off", "s.gii"}) {
-    CHECK(save_sphere(folder.file(name), egg()) == 0);
-    const VerifiedMap read = verify_map(folder.file(name));
+    CHECK(save_sphere(folder / name, egg()) == 0);
+    const VerifiedMap read = verify_map(folder / name);
     CHECK(read.certificate.bijective());
     const bool exact = std::string(name) != "s.gii";
     CHECK(read.mean_length == Approx(exact ? 1 : 100));
     if (exact) CHECK(read.map.points == egg().map().points);
-    CHECK(read_provenance(read_mesh(folder.file(name))) == egg().provenance());
+    CHECK(read_provenance(read_mesh(folder / name)) == egg().provenance());
   }
-  CHECK_THROWS_AS(save_sphere(folder.file("s.stl"), egg()), WriteError);
+  CHECK_THROWS_AS(save_sphere(folder / "s.stl", egg()), WriteError);
 }
 
 TEST_CASE("map_files: what floats cannot hold is mapped anew, where nothing holds it in place") {
@@ -69,14 +69,14 @@ TEST_CASE("map_files: what floats cannot hold is mapped anew, where nothing hold
                            {"verdict", "one-to-one"}};
   const MappedMesh mapped({.file = egg().file(), .map = gathered_map(), .provenance = held});
   CHECK_THROWS_WITH(
-      save_sphere(folder.file("a.gii"), mapped, {.may_remap = false}),
+      save_sphere(folder / "a.gii", mapped, {.may_remap = false}),
       Catch::Contains("a.gii: numbers of 32 bits cannot hold this map with its pins"));
-  CHECK(save_sphere(folder.file("a.ply"), mapped, {.may_remap = false}) == 0);
-  CHECK(read_provenance(read_mesh(folder.file("a.ply"))) == held);
-  CHECK(save_sphere(folder.file("b.gii"), egg(), {.may_remap = false}) == 0);
-  CHECK(save_sphere(folder.file("c.gii"), mapped) > 0);
-  CHECK(verify_map(folder.file("c.gii")).certificate.bijective());
-  CHECK(read_provenance(read_mesh(folder.file("c.gii"))) ==
+  CHECK(save_sphere(folder / "a.ply", mapped, {.may_remap = false}) == 0);
+  CHECK(read_provenance(read_mesh(folder / "a.ply")) == held);
+  CHECK(save_sphere(folder / "b.gii", egg(), {.may_remap = false}) == 0);
+  CHECK(save_sphere(folder / "c.gii", mapped) > 0);
+  CHECK(verify_map(folder / "c.gii").certificate.bijective());
+  CHECK(read_provenance(read_mesh(folder / "c.gii")) ==
         Provenance{{"method", "given"}, {"verdict", "one-to-one"}});
 }
 
@@ -89,14 +89,14 @@ TEST_CASE("map_files: a folded map has the verdict of what floats made of it") {
   const Provenance provenance = {{"verdict", verdict(certificate)}};
   PendingFiles files;
   for (const char* name : {"a.ply", "a.gii"}) {
-    CHECK(add_sphere(files, folder.file(name),
+    CHECK(add_sphere(files, folder / name,
                      {mapped.file(), mapped.topology(), map, certificate, provenance}) == 0);
   }
   files.publish();
-  CHECK(read_provenance(read_mesh(folder.file("a.ply"))) == provenance);
-  const std::string found = verdict(verify_map(folder.file("a.gii")).certificate);
+  CHECK(read_provenance(read_mesh(folder / "a.ply")) == provenance);
+  const std::string found = verdict(verify_map(folder / "a.gii").certificate);
   REQUIRE(found != verdict(certificate));
-  CHECK(read_provenance(read_mesh(folder.file("a.gii"))) == Provenance{{"verdict", found}});
+  CHECK(read_provenance(read_mesh(folder / "a.gii")) == Provenance{{"verdict", found}});
 }
 
 TEST_CASE("map_files: what is written must have the verdict that was found") {
@@ -104,12 +104,11 @@ TEST_CASE("map_files: what is written must have the verdict that was found") {
   const MappedMesh mapped = egg();
   PendingFiles files;
   const MeshFile with_map = attach_map(mapped.file(), mapped.map(), {});
-  CHECK_THROWS_AS(
-      add_map(files, folder.file("egg.sph.ply"), with_map, mapped.topology(), "folded 3"),
-      NotCertifiedError);
-  add_map(files, folder.file("egg.sph.ply"), with_map, mapped.topology(), "one-to-one");
+  CHECK_THROWS_AS(add_map(files, folder / "egg.sph.ply", with_map, mapped.topology(), "folded 3"),
+                  NotCertifiedError);
+  add_map(files, folder / "egg.sph.ply", with_map, mapped.topology(), "one-to-one");
   files.publish();
-  CHECK(fs::exists(folder.file("egg.sph.ply")));
+  CHECK(fs::exists(folder / "egg.sph.ply"));
 }
 
 TEST_CASE("map_files: a map is proved on the faces and the vertices that the file has") {
@@ -118,7 +117,7 @@ TEST_CASE("map_files: a map is proved on the faces and the vertices that the fil
   const MeshFile with_map = attach_map(mapped.file(), mapped.map(), {});
   PendingFiles files;
   const auto add = [&](const MeshFile& file) {
-    add_certified(files, folder.file("egg.sph.ply"), serialise_ply(file), mapped.topology(), 1);
+    add_certified(files, folder / "egg.sph.ply", serialise_ply(file), mapped.topology(), 1);
   };
   MeshFile other_faces = with_map;
   for (int& v : other_faces.mesh.triangles.reshaped()) v = v == 3 ? 100 : v == 100 ? 3 : v;
@@ -227,11 +226,11 @@ TEST_CASE("harmonic_expansion: what it makes is written with its map, or as the 
   const MappedMesh mapped = egg();
   const HarmonicExpansion expansion = expand_in_harmonics(mapped, {}, {.degree = 3});
   PendingFiles files;
-  add_reconstruction(files, folder.file("a.sph.ply"), mapped, expansion);
-  add_reconstruction(files, folder.file("a.off"), mapped, expansion);
+  add_reconstruction(files, folder / "a.sph.ply", mapped, expansion);
+  add_reconstruction(files, folder / "a.off", mapped, expansion);
   files.publish();
-  CHECK(load_mapped(folder.file("a.sph.ply")).map().points == mapped.map().points);
-  CHECK_FALSE(has_map(read_mesh(folder.file("a.off"))));
+  CHECK(load_mapped(folder / "a.sph.ply").map().points == mapped.map().points);
+  CHECK_FALSE(has_map(read_mesh(folder / "a.off")));
 }
 
 TEST_CASE("harmonic_expansion: a scalar that vertices lack is named") {

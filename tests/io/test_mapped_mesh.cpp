@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <thread>
 
-#include "folder.h"
 #include "reading.h"
 #include "sphparam/errors.h"
 #include "sphparam/io/certified_files.h"
@@ -13,6 +12,7 @@
 #include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/safe_file.h"
+#include "support/folder.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -279,8 +279,8 @@ TEST_CASE("mapped_mesh: threads that ask at once get one locator") {
 
 TEST_CASE("mapped_mesh: saved and loaded it is the same, bit for bit") {
   const Folder folder;
-  save_mapped(folder.file("egg.sph.ply"), egg());
-  const MappedMesh back = load_mapped(folder.file("egg.sph.ply"));
+  save_mapped(folder / "egg.sph.ply", egg());
+  const MappedMesh back = load_mapped(folder / "egg.sph.ply");
   CHECK(back.map().points == egg().map().points);
   CHECK(back.mesh().positions == egg().mesh().positions);
   CHECK(back.provenance() == egg().provenance());
@@ -291,22 +291,22 @@ TEST_CASE("mapped_mesh: saved and loaded it is the same, bit for bit") {
 TEST_CASE("mapped_mesh: formats without a place for the map hold the mesh alone") {
   const Folder folder;
   for (const char* name : {"egg.obj", "egg.off", "egg.gii"}) {
-    save_mapped(folder.file(name), egg());
-    const MeshFile back = read_mesh(folder.file(name));
+    save_mapped(folder / name, egg());
+    const MeshFile back = read_mesh(folder / name);
     const Points positions = egg().mesh().positions;
     const bool rounds = fs::path(name).extension() == ".gii";
     CHECK(back.mesh.positions ==
           (rounds ? Points(positions.cast<float>().cast<double>()) : positions));
     CHECK_FALSE(read_sphere(back));
   }
-  CHECK_THROWS_AS(save_mapped(folder.file("egg.stl"), egg()), WriteError);
-  CHECK_FALSE(fs::exists(folder.file("egg.stl")));
+  CHECK_THROWS_AS(save_mapped(folder / "egg.stl", egg()), WriteError);
+  CHECK_FALSE(fs::exists(folder / "egg.stl"));
 }
 
 TEST_CASE("mapped_mesh: a mesh without a map is mapped, and says how") {
   const Folder folder;
-  write_mesh(folder.file("egg.obj"), egg_file());
-  const MappedMesh mapped = load_mapped(folder.file("egg.obj"));
+  write_mesh(folder / "egg.obj", egg_file());
+  const MappedMesh mapped = load_mapped(folder / "egg.obj");
   CHECK(mapped.certificate().bijective());
   CHECK(mapped.mapped_here());
   CHECK(mapped.provenance().back() == std::pair<std::string, std::string>{"verdict", "one-to-one"});
@@ -314,33 +314,31 @@ TEST_CASE("mapped_mesh: a mesh without a map is mapped, and says how") {
 
 TEST_CASE("mapped_mesh: the sphere may be a file of its own, of any radius") {
   const Folder folder;
-  write_mesh(folder.file("egg.obj"), egg_file());
+  write_mesh(folder / "egg.obj", egg_file());
   SphereMap large = identity();
   large.points *= 100;
-  write_mesh(folder.file("sphere.off"), sphere_mesh(egg_file(), large, {}), {.is_sphere = true});
-  const MappedMesh mapped =
-      load_mapped(folder.file("egg.obj"), {.sphere = folder.file("sphere.off")});
+  write_mesh(folder / "sphere.off", sphere_mesh(egg_file(), large, {}), {.is_sphere = true});
+  const MappedMesh mapped = load_mapped(folder / "egg.obj", {.sphere = folder / "sphere.off"});
   CHECK((mapped.map().points - identity().points).cwiseAbs().maxCoeff() < 1e-15);
   CHECK_FALSE(mapped.mapped_here());
   CHECK(mapped.notes().empty());
 
   MeshFile other;
   other.mesh = icosphere(1);
-  write_mesh(folder.file("other.off"), other);
-  CHECK_THROWS_AS(load_mapped(folder.file("egg.obj"), {.sphere = folder.file("other.off")}),
-                  ReadError);
-  write_mesh(folder.file("folded.off"), sphere_mesh(egg_file(), folded(), {}));
-  CHECK_THROWS_WITH(load_mapped(folder.file("egg.obj"), {.sphere = folder.file("folded.off")}),
+  write_mesh(folder / "other.off", other);
+  CHECK_THROWS_AS(load_mapped(folder / "egg.obj", {.sphere = folder / "other.off"}), ReadError);
+  write_mesh(folder / "folded.off", sphere_mesh(egg_file(), folded(), {}));
+  CHECK_THROWS_WITH(load_mapped(folder / "egg.obj", {.sphere = folder / "folded.off"}),
                     Catch::StartsWith("folded.off"));
 }
 
 TEST_CASE("mapped_mesh: a sphere that was moved off the origin is taken by its rays, and told") {
   const Folder folder;
-  write_mesh(folder.file("egg.obj"), egg_file());
+  write_mesh(folder / "egg.obj", egg_file());
   SphereMap moved = identity();
   moved.points.col(1).array() += 0.5;
-  write_mesh(folder.file("off.off"), sphere_mesh(egg_file(), moved, {}), {.is_sphere = true});
-  const MappedMesh mapped = load_mapped(folder.file("egg.obj"), {.sphere = folder.file("off.off")});
+  write_mesh(folder / "off.off", sphere_mesh(egg_file(), moved, {}), {.is_sphere = true});
+  const MappedMesh mapped = load_mapped(folder / "egg.obj", {.sphere = folder / "off.off"});
   CHECK(mapped.notes() ==
         std::vector<std::string>{"off.off: these points are not on a sphere about the origin: "
                                  "their radius is 1.08 in the mean, and up to 53.8 % more or less; "
@@ -351,9 +349,9 @@ TEST_CASE("mapped_mesh: a mesh that needs it is mended where that is asked for")
   const Folder folder;
   MeshFile open = egg_file();
   open.mesh.triangles.conservativeResize(open.mesh.face_count() - 1, 3);
-  write_mesh(folder.file("open.obj"), open);
-  CHECK_THROWS_AS(load_mapped(folder.file("open.obj")), MeshRefusal);
-  const MappedMesh mended = load_mapped(folder.file("open.obj"), {.repair = RepairOptions{}});
+  write_mesh(folder / "open.obj", open);
+  CHECK_THROWS_AS(load_mapped(folder / "open.obj"), MeshRefusal);
+  const MappedMesh mended = load_mapped(folder / "open.obj", {.repair = RepairOptions{}});
   CHECK(mended.mesh().face_count() == egg_file().mesh.face_count());
   CHECK(mended.certificate().bijective());
 }
@@ -366,8 +364,8 @@ TEST_CASE("mapped_mesh: the polygons that the triangles are cut of are kept and 
   REQUIRE(mapped.polygons());
   CHECK(mapped.polygons()->corners == polygons.corners);
   for (const char* name : {"box.sph.ply", "box.obj"}) {
-    save_mapped(folder.file(name), mapped);
-    const MeshFile back = read_mesh(folder.file(name));
+    save_mapped(folder / name, mapped);
+    const MeshFile back = read_mesh(folder / name);
     CHECK(back.polygons == 6);
     CHECK(back.mesh.triangles == file.mesh.triangles);
   }
@@ -380,9 +378,9 @@ TEST_CASE("mapped_mesh: a surface without its fillers is written in the polygons
   mark_fillers(file, {1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0});
   const MappedMesh mapped({.file = file, .map = {file.mesh.positions}, .polygons = polygons});
   PendingFiles files;
-  add_mapped(files, folder.file("box.obj"), mapped, 1, {}, FillersInFile::Left);
+  add_mapped(files, folder / "box.obj", mapped, 1, {}, FillersInFile::Left);
   files.publish();
-  const MeshFile back = read_mesh(folder.file("box.obj"));
+  const MeshFile back = read_mesh(folder / "box.obj");
   CHECK(back.polygons == 3);
   CHECK(back.mesh.positions == file.mesh.positions.bottomRows(7));
   Triangles left(6, 3);
@@ -393,10 +391,10 @@ TEST_CASE("mapped_mesh: a surface without its fillers is written in the polygons
 
 TEST_CASE("mapped_mesh: progress may cancel the map that is made") {
   const Folder folder;
-  write_mesh(folder.file("egg.obj"), egg_file());
+  write_mesh(folder / "egg.obj", egg_file());
   LoadOptions options;
   options.map.progress = [](std::string_view, double) { return false; };
-  CHECK_THROWS_AS(load_mapped(folder.file("egg.obj"), options), Cancelled);
+  CHECK_THROWS_AS(load_mapped(folder / "egg.obj", options), Cancelled);
 }
 
 // The lines of docs/components/io.md, which a test of documents looks for here.

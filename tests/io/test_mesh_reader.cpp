@@ -6,11 +6,11 @@
 #include <fstream>
 #include <random>
 
-#include "folder.h"
 #include "io/files/file_bytes.h"
 #include "reading.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/mesh/mesh_repair.h"
+#include "support/folder.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;
@@ -62,9 +62,8 @@ TEST_CASE("mesh_reader: files that cannot be opened say so") {
 
 TEST_CASE("mesh_reader: a name that only components bear is answered with theirs") {
   using Catch::Matchers::Contains;
-  const auto folder = std::filesystem::temp_directory_path() / "sphparam_test_parts";
-  std::filesystem::create_directory(folder);
-  const std::string path = (folder / "two.sph.ply").string();
+  const Folder folder;
+  const std::string path = folder / "two.sph.ply";
   std::ofstream(folder / "two_0002.sph.ply") << tetrahedron_ply;
   CHECK_THROWS_WITH(read_mesh(path), Contains("1 component: name one, ") &&
                                          Contains("two_0002.sph.ply") && !Contains(" to "));
@@ -72,20 +71,19 @@ TEST_CASE("mesh_reader: a name that only components bear is answered with theirs
   CHECK_THROWS_WITH(read_mesh(path), Contains("2 components") && Contains("two_0011.sph.ply"));
   std::ofstream(path) << tetrahedron_ply;
   CHECK_NOTHROW(read_mesh(path));
-  std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("mesh_reader: a file on disk reads like its bytes") {
-  const auto path = std::filesystem::temp_directory_path() / "sphparam_test_reader.off";
+  const Folder folder;
+  const std::string path = folder / "a.off";
   std::ofstream(path) << tetrahedron_off;
-  CHECK(sphparam::read_mesh(path.string()).mesh.triangles == read(tetrahedron_off).mesh.triangles);
+  CHECK(sphparam::read_mesh(path).mesh.triangles == read(tetrahedron_off).mesh.triangles);
   ReadOptions options;
   options.max_file_bytes = tetrahedron_off.size();
-  CHECK_NOTHROW(sphparam::read_mesh(path.string(), options));
+  CHECK_NOTHROW(sphparam::read_mesh(path, options));
   options.max_file_bytes -= 1;
-  CHECK_THROWS_WITH(sphparam::read_mesh(path.string(), options),
+  CHECK_THROWS_WITH(sphparam::read_mesh(path, options),
                     Catch::Matchers::Contains("`--limit file=N` raises it"));
-  std::filesystem::remove(path);
 }
 
 TEST_CASE("mesh_reader: what a link's mesh names is beside the link, or else beside the mesh") {
@@ -100,7 +98,7 @@ TEST_CASE("mesh_reader: what a link's mesh names is beside the link, or else bes
   write("store/a.mtl", "newmtl p\nKd 1 0 0\n");
   fs::create_symlink("../store/a.obj", folder.path / "work/link.obj");
   const auto red_of_link = [&] {
-    const MeshFile file = sphparam::read_mesh(folder.file("work/link.obj"));
+    const MeshFile file = sphparam::read_mesh(folder / "work/link.obj");
     REQUIRE(file.base_colours.size() == 1);
     return file.base_colours[0].factor[0];
   };
@@ -109,7 +107,7 @@ TEST_CASE("mesh_reader: what a link's mesh names is beside the link, or else bes
   CHECK(red_of_link() == 0.5);
   fs::remove(folder.path / "work/a.mtl");
   fs::remove(folder.path / "store/a.mtl");
-  const MeshFile bare = sphparam::read_mesh(folder.file("work/link.obj"));
+  const MeshFile bare = sphparam::read_mesh(folder / "work/link.obj");
   CHECK(bare.base_colours.empty());
   CHECK(bare.notes == std::vector<std::string>{
                           "not carried: colours and textures of 1 material in 'a.mtl' (No "

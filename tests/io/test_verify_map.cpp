@@ -3,13 +3,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "folder.h"
 #include "reading.h"
 #include "sphparam/io/map_files.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/sphere_file.h"
 #include "sphparam/io/verify_map.h"
 #include "sphparam/mesh/mesh_defects.h"
+#include "support/folder.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -18,8 +18,8 @@ using namespace sphparam::tests;
 namespace {
 
 std::string write(const Folder& folder, const std::string& name, const MeshFile& file) {
-  write_mesh(folder.file(name), file);
-  return folder.file(name);
+  write_mesh(folder / name, file);
+  return folder / name;
 }
 
 MeshFile file_of(TriangleMesh mesh) {
@@ -199,16 +199,15 @@ TEST_CASE("verify_map: what we say of a welded, a split or a repaired mesh is no
                 .warnings.empty());
       for (const char* name : {"s.ply", "s.gii"}) {
         INFO(name);
-        save_sphere(folder.file(name),
+        save_sphere(folder / name,
                     MappedMesh({.file = file, .map = map, .provenance = said(meridian)}));
-        CHECK(verify_map(folder.file(name)).warnings.empty());
-        CHECK(verify_map(mesh, {.sphere = folder.file(name)}).warnings.empty());
+        CHECK(verify_map(folder / name).warnings.empty());
+        CHECK(verify_map(mesh, {.sphere = folder / name}).warnings.empty());
       }
     }
-    save_sphere(folder.file("w.ply"),
-                MappedMesh({.file = file, .map = map, .provenance = said(back)}));
-    CHECK(verify_map(folder.file("w.ply")).warnings.empty());  // nothing says which vertex it is
-    CHECK_THAT(verify_map(mesh, {.sphere = folder.file("w.ply")}).warnings.at(0),
+    save_sphere(folder / "w.ply", MappedMesh({.file = file, .map = map, .provenance = said(back)}));
+    CHECK(verify_map(folder / "w.ply").warnings.empty());  // nothing says which vertex it is
+    CHECK_THAT(verify_map(mesh, {.sphere = folder / "w.ply"}).warnings.at(0),
                Catch::Contains("from theta = 0"));
   }
 }

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <limits>
 
-#include "folder.h"
 #include "reading.h"
 #include "sphparam/io/brain_names.h"
 #include "sphparam/io/certified_files.h"
@@ -10,6 +9,7 @@
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/io/vertex_data.h"
+#include "support/folder.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -387,23 +387,22 @@ TEST_CASE(
   const Folder folder;
   {
     PendingFiles files;
-    const auto told = add_mesh(files, folder.file("S.L.white.native.surf.gii"), mesh);
+    const auto told = add_mesh(files, folder / "S.L.white.native.surf.gii", mesh);
     CHECK(told.at(0) == "lobes beside it: S.L.lobes.native.label.gii");
-    add_mesh(files, folder.file("lh.white"), mesh);
+    add_mesh(files, folder / "lh.white", mesh);
     files.publish();
   }
   for (const char* name : {"S.L.lobes.native.label.gii", "lh.lobes.annot"})
-    check_same(read_vertex_data(folder.file(name), 4), lobes());
-  CHECK(read_vertex_data(folder.file("lh.thickness"), 4).triangles == 4);
-  CHECK(read_vertex_data(folder.file("S.L.thickness.native.shape.gii"), 4).structure ==
-        "CortexLeft");
-  const MeshFile surface = read_mesh(folder.file("S.L.white.native.surf.gii"));
+    check_same(read_vertex_data(folder / name, 4), lobes());
+  CHECK(read_vertex_data(folder / "lh.thickness", 4).triangles == 4);
+  CHECK(read_vertex_data(folder / "S.L.thickness.native.shape.gii", 4).structure == "CortexLeft");
+  const MeshFile surface = read_mesh(folder / "S.L.white.native.surf.gii");
   CHECK(surface.comments == std::vector<std::string>{"gifti AnatomicalStructurePrimary CortexLeft",
                                                      "gifti AnatomicalStructureSecondary GrayWhite",
                                                      "gifti GeometricType Anatomical"});
   PendingFiles files;
   mesh.mesh.positions(0, 0) = std::numeric_limits<double>::infinity();
-  CHECK_THROWS(add_mesh(files, folder.file("x.surf.gii"), mesh));
+  CHECK_THROWS(add_mesh(files, folder / "x.surf.gii", mesh));
 }
 
 TEST_CASE("vertex_data: a file beside a surface replaces none that is there") {
@@ -413,20 +412,20 @@ TEST_CASE("vertex_data: a file beside a surface replaces none that is there") {
   const Folder folder;
   VertexData original = thickness();
   original.columns[0].values[2] = 7;
-  write_vertex_data(folder.file("lh.thickness"), original);
+  write_vertex_data(folder / "lh.thickness", original);
   {
     PendingFiles files;
-    CHECK_THROWS_WITH(add_mesh(files, folder.file("lh.white"), mesh),
+    CHECK_THROWS_WITH(add_mesh(files, folder / "lh.white", mesh),
                       Catch::Contains("lh.thickness: is there already") &&
                           Catch::Contains("give -o another name"));
   }
-  check_same(read_vertex_data(folder.file("lh.thickness"), 4), original);
+  check_same(read_vertex_data(folder / "lh.thickness", 4), original);
   for (int again = 0; again < 2; ++again) {
     PendingFiles files;
-    add_mesh(files, folder.file("lh.pial.surf.gii"), mesh);
+    add_mesh(files, folder / "lh.pial.surf.gii", mesh);
     files.publish();
   }
-  check_same(read_vertex_data(folder.file("lh.thickness.shape.gii"), 4), thickness());
+  check_same(read_vertex_data(folder / "lh.thickness.shape.gii", 4), thickness());
 }
 
 TEST_CASE("vertex_data: names that mean something in a mesh are no names of data") {
@@ -466,13 +465,13 @@ TEST_CASE("vertex_data: text in UTF-8 passes through GIFTI, other bytes are told
   VertexData data = lobes();
   data.labels[1].name = "cortex cérébral 脳 अ 𝛼";
   data.metadata = {{"Größe", "½ µm"}};
-  CHECK(add_vertex_data(files, folder.file("a.label.gii"), data).empty());
+  CHECK(add_vertex_data(files, folder / "a.label.gii", data).empty());
   const VertexData again = read_values(serialise_vertex_data("a.label.gii", data), "a.label.gii");
   CHECK(again.labels.at(1).name == data.labels[1].name);
   CHECK(again.metadata == data.metadata);
   data.labels[1].name = "caf\xe9 \xed\xa0\x80 \xc0\x80\x01 \xa9\xa9 \xf8\x90\x80\x80";
   data.metadata[0].second = "\xff";
-  CHECK(add_vertex_data(files, folder.file("b.label.gii"), data) ==
+  CHECK(add_vertex_data(files, folder / "b.label.gii", data) ==
         std::vector<std::string>{"not carried: key, name or colour, as they were, of 1 of 3 labels",
                                  "not carried: 1 line of metadata"});
   CHECK(read_values(serialise_vertex_data("b.label.gii", data), "b.label.gii").labels.at(1).name ==
@@ -486,24 +485,24 @@ TEST_CASE("vertex_data: what other formats have no place for is told in a line e
   series.kind = DataKind::TimeSeries;
   series.structure = "CortexLeft";
   series.columns[0].name.clear();
-  CHECK(add_vertex_data(files, folder.file("a.mgh"), series) ==
+  CHECK(add_vertex_data(files, folder / "a.mgh", series) ==
         std::vector<std::string>{
             "not carried: that the columns are a time series (NIFTI_INTENT_TIME_SERIES)",
             "not carried: the structure CortexLeft"});
   VertexData curvature = series;
   curvature.kind = DataKind::Metric;
   curvature.columns[0].intent = "NIFTI_INTENT_ZSCORE";
-  CHECK(add_vertex_data(files, folder.file("lh.curv"), curvature) ==
+  CHECK(add_vertex_data(files, folder / "lh.curv", curvature) ==
         std::vector<std::string>{"not carried: the intent of 1 column (NIFTI_INTENT_ZSCORE)"});
   // Colours of eight bits come back from six digits.
   const VertexData parcels = read_values(annotation(), "lh.a.annot");
-  CHECK(add_vertex_data(files, folder.file("lh.a.label.gii"), parcels).empty());
+  CHECK(add_vertex_data(files, folder / "lh.a.label.gii", parcels).empty());
   VertexData one = lobes();
   one.columns[0].values = {0, 2, 0, 2};
-  CHECK(add_vertex_data(files, folder.file("parietal.label"), one) ==
+  CHECK(add_vertex_data(files, folder / "parietal.label", one) ==
         std::vector<std::string>{"not carried: key, name or colour, as they were, of 2 of 3 labels",
                                  "not carried: names of columns"});
-  CHECK(add_vertex_data(files, folder.file("lobes.label.gii"), one).empty());
+  CHECK(add_vertex_data(files, folder / "lobes.label.gii", one).empty());
 }
 
 TEST_CASE("vertex_data: data that is attached keeps its number where other data is gone") {

@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 
-#include "folder.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/written_map.h"
+#include "support/folder.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -24,16 +24,16 @@ TEST_CASE("written map: sx sy sz of a file, else its vertices, as they are") {
   TriangleMesh egg = icosphere(1);
   const Points rays = egg.positions;
   egg.positions.col(2) *= 2;
-  write_mesh(folder.file("egg.ply"), file_of(egg));
-  const MeshSource mesh = read_source(folder.file("egg.ply"));
+  write_mesh(folder / "egg.ply", file_of(egg));
+  const MeshSource mesh = read_source(folder / "egg.ply");
 
-  write_mesh(folder.file("ball.obj"), file_of({7 * rays, egg.triangles}));
-  const WrittenMap ball = read_map_of(mesh, folder.file("ball.obj"));
+  write_mesh(folder / "ball.obj", file_of({7 * rays, egg.triangles}));
+  const WrittenMap ball = read_map_of(mesh, folder / "ball.obj");
   CHECK(ball.map.points == 7 * rays);
   CHECK(ball.provenance.empty());
 
-  write_mesh(folder.file("egg.sph.ply"), attach_map(file_of(egg), {rays}, {{"method", "by hand"}}));
-  const WrittenMap mapped = read_map_of(mesh, folder.file("egg.sph.ply"));
+  write_mesh(folder / "egg.sph.ply", attach_map(file_of(egg), {rays}, {{"method", "by hand"}}));
+  const WrittenMap mapped = read_map_of(mesh, folder / "egg.sph.ply");
   CHECK(mapped.map.points == rays);
   CHECK(mapped.provenance == Provenance{{"method", "by hand"}});
   CHECK(mapped.file.mesh.positions == egg.positions);
@@ -41,18 +41,17 @@ TEST_CASE("written map: sx sy sz of a file, else its vertices, as they are") {
 
 TEST_CASE("written map: a file of another connectivity is refused, by the name of what it is not") {
   const Folder folder;
-  write_mesh(folder.file("a.ply"), file_of(icosphere(1)));
-  write_mesh(folder.file("b.ply"), file_of(icosphere(2)));
-  const MeshSource mesh = read_source(folder.file("a.ply"));
-  CHECK_THROWS_WITH(read_map_of(mesh, folder.file("b.ply")), Contains("not a sphere of a.ply"));
-  CHECK_THROWS_WITH(read_map_of(mesh, folder.file("b.ply"), {}, "map"),
-                    Contains("not a map of a.ply"));
+  write_mesh(folder / "a.ply", file_of(icosphere(1)));
+  write_mesh(folder / "b.ply", file_of(icosphere(2)));
+  const MeshSource mesh = read_source(folder / "a.ply");
+  CHECK_THROWS_WITH(read_map_of(mesh, folder / "b.ply"), Contains("not a sphere of a.ply"));
+  CHECK_THROWS_WITH(read_map_of(mesh, folder / "b.ply", {}, "map"), Contains("not a map of a.ply"));
   const std::string advice = "which `sphparam repair` with the same options writes";
-  CHECK_THROWS_WITH(read_map_of(mesh, folder.file("b.ply")), !Contains(advice));
+  CHECK_THROWS_WITH(read_map_of(mesh, folder / "b.ply"), !Contains(advice));
   const MeshFile file = file_of(icosphere(2));
   const MeshFile own = sphere_mesh(file, {file.mesh.positions}, {{"method", "progressive"}});
   for (const char* name : {"own.surf.gii", "lh.sphere"}) {
-    write_mesh(folder.file(name), own, {.is_sphere = true});
-    CHECK_THROWS_WITH(read_map_of(mesh, folder.file(name)), Contains(advice));
+    write_mesh(folder / name, own, {.is_sphere = true});
+    CHECK_THROWS_WITH(read_map_of(mesh, folder / name), Contains(advice));
   }
 }

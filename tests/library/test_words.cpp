@@ -8,10 +8,10 @@
 #include "place_text.h"
 #include "sphparam/names.h"
 #include "sphparam/words.h"
-#include "support/place.h"
+#include "support/folder.h"
 
 using namespace sphparam;
-using sphparam::tests::Place;
+using sphparam::tests::Folder;
 
 TEST_CASE("number_text: as many digits as people read, or all that matter") {
   CHECK(short_number(12.345) == "12.3");
@@ -37,10 +37,10 @@ TEST_CASE("place_text: places of one shape are told apart wherever it stands") {
 }
 
 TEST_CASE("number_text: numbers have a point, whatever locale the program has set") {
-  const Place place;
-  const std::string german = place / "de_DE.UTF-8";
+  const Folder folder;
+  const std::string german = folder / "de_DE.UTF-8";
   REQUIRE(std::system(("localedef -i de_DE -f UTF-8 " + german).c_str()) == 0);
-  REQUIRE(setenv("LOCPATH", (place / "").c_str(), 1) == 0);
+  REQUIRE(setenv("LOCPATH", (folder / "").c_str(), 1) == 0);
   const bool set = std::setlocale(LC_NUMERIC, "de_DE.UTF-8") != nullptr;
   REQUIRE(unsetenv("LOCPATH") == 0);
   REQUIRE(set);

@@ -2,13 +2,13 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 #include <random>
 #include <stdexcept>
 
 #include "image/image_codec.h"
 #include "remesh/image_values.h"
 #include "sphparam/remesh/geometry_image.h"
+#include "support/folder.h"
 #include "support/mapped.h"
 #include "support/test_meshes.h"
 
@@ -184,16 +184,15 @@ TEST_CASE("geometry images: a mesh comes back from its files, normals and colour
     file.set_vertex_property(std::move(channel));
   }
   const Remeshed made = remesh(tests::mapped(file, map), parse_grid("octa:9"));
-  std::string folder = (std::filesystem::temp_directory_path() / "sphparam_gim_XXXXXX").string();
-  REQUIRE(mkdtemp(folder.data()));
+  const tests::Folder folder;
   PendingFiles files;
   for (const char* what : {"position", "normal", "color"})
-    add_geometry_image(files, folder + "/" + what + ".exr", made, what);
-  add_geometry_image(files, folder + "/small.png", made, "position");
+    add_geometry_image(files, folder / (what + std::string(".exr")), made, what);
+  add_geometry_image(files, folder / "small.png", made, "position");
   files.publish();
-  const Remeshed back = load_geometry_image({.positions = folder + "/position.exr",
-                                             .normals = folder + "/normal.exr",
-                                             .attributes = {{"color", folder + "/color.exr"}}});
+  const Remeshed back = load_geometry_image({.positions = folder / "position.exr",
+                                             .normals = folder / "normal.exr",
+                                             .attributes = {{"color", folder / "color.exr"}}});
   CHECK(back.map().points == made.map().points);
   CHECK(back.mesh().triangles == made.mesh().triangles);
   CHECK(back.mesh().positions == made.mesh().positions.cast<float>().cast<double>());
@@ -212,28 +211,26 @@ TEST_CASE("geometry images: a mesh comes back from its files, normals and colour
     const Vector3 p = back.mesh().position(v);  // of x²/4 + y² + z² = 1
     CHECK(normal.dot(Vector3(p[0] / 4, p[1], p[2]).normalized()) > 0.9);
   }
-  const Remeshed small = load_geometry_image({.positions = folder + "/small.png"});
+  const Remeshed small = load_geometry_image({.positions = folder / "small.png"});
   CHECK((small.mesh().positions - made.mesh().positions).cwiseAbs().maxCoeff() <= 4.0 / 65535);
-  CHECK_THROWS_AS(load_geometry_image({.positions = folder + "/position.exr",
-                                       .attributes = {{"thickness", folder + "/color.exr"}}}),
+  CHECK_THROWS_AS(load_geometry_image({.positions = folder / "position.exr",
+                                       .attributes = {{"thickness", folder / "color.exr"}}}),
                   ImageError);
   const auto refused = [&](const GeometryImageFiles& images, const char* words) {
     CHECK_THROWS_WITH(load_geometry_image(images), Catch::Contains(words));
   };
-  refused({.positions = folder + "/normal.exr"},
+  refused({.positions = folder / "normal.exr"},
           "normal.exr: the image of 'normal', not of 'position'; give it as --normals");
-  refused({.positions = folder + "/position.exr", .normals = folder + "/position.exr"},
+  refused({.positions = folder / "position.exr", .normals = folder / "position.exr"},
           "position.exr: the image of 'position', not of 'normal'; give it as IMAGE");
-  refused(
-      {.positions = folder + "/position.exr", .attributes = {{"colour", folder + "/normal.exr"}}},
-      "the image of 'normal', not of 'colour'");
-  refused({.positions = folder + "/position.exr", .normals = folder + "/color.exr"},
+  refused({.positions = folder / "position.exr", .attributes = {{"colour", folder / "normal.exr"}}},
+          "the image of 'normal', not of 'colour'");
+  refused({.positions = folder / "position.exr", .normals = folder / "color.exr"},
           "the image of 'color', not of 'normal'; give it as --attribute NAME=FILE");
-  CHECK(load_geometry_image({.positions = folder + "/position.exr",
-                             .attributes = {{"colour", folder + "/color.exr"}}})
+  CHECK(load_geometry_image({.positions = folder / "position.exr",
+                             .attributes = {{"colour", folder / "color.exr"}}})
             .file()
             .find_vertex_property("red"));
-  std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("geometry images: other grids, and names that say another format, are refused") {

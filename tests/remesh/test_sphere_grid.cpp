@@ -1,7 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <map>
 #include <set>
@@ -12,6 +11,7 @@
 #include "sphparam/mesh/topology.h"
 #include "sphparam/remesh/sphere_grid.h"
 #include "sphparam/sphere/certificate.h"
+#include "support/folder.h"
 
 using namespace sphparam;
 
@@ -207,8 +207,8 @@ TEST_CASE("grids: specs that no name stands for are refused before any work") {
 }
 
 TEST_CASE("grids: a file's vertices about the origin are directions of any length, or refused") {
-  std::string path = (std::filesystem::temp_directory_path() / "sphparam_grid_XXXXXX.off").string();
-  REQUIRE(mkstemps(path.data(), 4) >= 0);
+  const tests::Folder folder;
+  const std::string path = folder / "grid.off";
   const auto write = [&](const char* top) {
     std::ofstream(path) << "OFF\n6 8 0\n3 0 0\n-3 0 0\n0 2 0\n0 -2 0\n0 0 " << top
                         << "\n0 0 -0.5\n3 0 2 4\n3 2 1 4\n3 1 3 4\n3 3 0 4\n3 2 0 5\n3 1 2 5\n"
@@ -218,13 +218,12 @@ TEST_CASE("grids: a file's vertices about the origin are directions of any lengt
   const SphereGrid grid = load_grid(path);
   CHECK(grid.directions.rowwise().norm() == VectorX::Ones(6));
   CHECK(grid.faces.count() == 8);
-  CHECK(grid.warning == std::filesystem::path(path).filename().string() +
-                            ": these points are not on a sphere about the origin: their radius is "
-                            "1.75 in the mean, and up to 99.9 % more or less; their directions are "
-                            "judged");
+  CHECK(grid.warning ==
+        "grid.off: these points are not on a sphere about the origin: their radius is "
+        "1.75 in the mean, and up to 99.9 % more or less; their directions are "
+        "judged");
   write("-0.1");
   CHECK_THROWS_AS(load_grid(path), NotCertifiedError);
-  std::filesystem::remove(path);
 }
 
 TEST_CASE("grids: the same bytes for any number of threads") {

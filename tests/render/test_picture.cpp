@@ -1,8 +1,5 @@
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <filesystem>
 #include <stdexcept>
 
 #include "image/image_codec.h"
@@ -12,20 +9,12 @@
 #include "sphparam/io/sphere_file.h"
 #include "sphparam/render/coloured_values.h"
 #include "sphparam/render/picture.h"
+#include "support/folder.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;
-namespace fs = std::filesystem;
-
 namespace {
-
-struct Place {
-  fs::path folder = fs::temp_directory_path() / ("sphparam_drawn_" + std::to_string(getpid()));
-  Place() { fs::create_directories(folder); }
-  ~Place() { fs::remove_all(folder); }
-  std::string operator/(const std::string& name) const { return (folder / name).string(); }
-};
 
 MeshFile file_of(const TriangleMesh& mesh) {
   MeshFile file;
@@ -36,30 +25,30 @@ MeshFile file_of(const TriangleMesh& mesh) {
 }  // namespace
 
 TEST_CASE("picture: what is drawn has the map of its file, or of a sphere of any radius") {
-  const Place place;
+  const Folder folder;
   TriangleMesh egg = icosphere(1);
   const Points rays = egg.positions;
   egg.positions.col(2) *= 2;
-  write_mesh(place / "egg.ply", file_of(egg));
-  write_mesh(place / "egg.sph.ply", attach_map(file_of(egg), {rays}, {}));
-  write_mesh(place / "ball.ply", file_of({8 * rays, egg.triangles}));
-  CHECK_FALSE(load_drawn(place / "egg.ply").map);
-  CHECK(load_drawn(place / "egg.sph.ply").map->points == rays);
-  const DrawnMesh drawn = load_drawn(place / "egg.ply", place / "ball.ply");
+  write_mesh(folder / "egg.ply", file_of(egg));
+  write_mesh(folder / "egg.sph.ply", attach_map(file_of(egg), {rays}, {}));
+  write_mesh(folder / "ball.ply", file_of({8 * rays, egg.triangles}));
+  CHECK_FALSE(load_drawn(folder / "egg.ply").map);
+  CHECK(load_drawn(folder / "egg.sph.ply").map->points == rays);
+  const DrawnMesh drawn = load_drawn(folder / "egg.ply", folder / "ball.ply");
   REQUIRE(drawn.map);
   CHECK((drawn.map->points - rays).norm() < 1e-12);
   CHECK(draw_png(drawn.file, drawn.map, {.size = 32}).starts_with("\x89PNG"));
 }
 
 TEST_CASE("picture: nothing to draw, and a vertex in no direction, are refused with the file") {
-  const Place place;
-  write_mesh(place / "none.ply", file_of({Points::Zero(3, 3), Triangles(0, 3)}));
-  CHECK_THROWS_WITH(load_drawn(place / "none.ply"), "none.ply: there are no triangles to draw");
+  const Folder folder;
+  write_mesh(folder / "none.ply", file_of({Points::Zero(3, 3), Triangles(0, 3)}));
+  CHECK_THROWS_WITH(load_drawn(folder / "none.ply"), "none.ply: there are no triangles to draw");
   TriangleMesh ball = icosphere(1);
-  write_mesh(place / "ball.ply", file_of(ball));
+  write_mesh(folder / "ball.ply", file_of(ball));
   ball.positions.row(4).setZero();
-  write_mesh(place / "flat.ply", file_of(ball));
-  CHECK_THROWS_WITH(load_drawn(place / "ball.ply", place / "flat.ply"),
+  write_mesh(folder / "flat.ply", file_of(ball));
+  CHECK_THROWS_WITH(load_drawn(folder / "ball.ply", folder / "flat.ply"),
                     "flat.ply: vertex 4 is at the centre, in no direction");
 }
 

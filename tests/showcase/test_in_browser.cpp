@@ -1,5 +1,3 @@
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <filesystem>
@@ -9,6 +7,7 @@
 
 #include "showcase/page_entry.h"
 #include "showcase/report_page.h"
+#include "support/folder.h"
 #include "support/process.h"
 #include "support/test_meshes.h"
 
@@ -115,12 +114,6 @@ MeshFile stretched() {
   return file;
 }
 
-struct TemporaryFolder {
-  fs::path path = fs::temp_directory_path() / ("sphparam-page-" + std::to_string(::getpid()));
-  TemporaryFolder() { fs::create_directories(path); }
-  ~TemporaryFolder() { fs::remove_all(path); }
-};
-
 /// What the browser says while it shows a page of that width.
 std::string visit(const fs::path& folder, const std::string& page, int width) {
   std::ofstream(folder / "page.html", std::ios::binary) << page;
@@ -153,7 +146,7 @@ TEST_CASE("page in Chromium: slider, variants and play change what is seen, offl
   options.viewer = viewer;
   options.image_width = 512;
   options.look.size = 200;
-  const TemporaryFolder folder;
+  const Folder folder;
   const std::string page = with_visitor(report_page("ball", file, {page_entry}, options));
   const std::string messages = visit(folder.path, page, 600);
   INFO(messages);

@@ -1,5 +1,3 @@
-#include <unistd.h>
-
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
@@ -11,6 +9,7 @@
 #include "sphparam/errors.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/report/report_page.h"
+#include "support/folder.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -278,12 +277,12 @@ TEST_CASE("make_report: a size or a map that cannot be is refused before any wor
 
 TEST_CASE("page entries: maps of files are told apart, a mesh without a map is mapped now") {
   namespace fs = std::filesystem;
-  const fs::path folder = fs::temp_directory_path() / ("sphparam_maps_" + std::to_string(getpid()));
-  fs::create_directories(folder / "other");
+  const Folder folder;
+  fs::create_directory(folder / "other");
   const MeshFile file = ball(1);
   const SphereMap map = normalised(file.mesh.positions);
   const std::string mesh = folder / "ball.obj", mapped = folder / "ball.sph.ply",
-                    other = folder / "other" / "ball.obj";
+                    other = folder / "other/ball.obj";
   write_mesh(mesh, file);
   write_mesh(other, file);
   write_mesh(mapped, attach_map(file, map, {{"method", "by hand"}}));
@@ -310,5 +309,4 @@ TEST_CASE("page entries: maps of files are told apart, a mesh without a map is m
   CHECK(beside[0].entry.name == "ball");
   CHECK(beside[0].entry.source == "ball.sph.ply");
   CHECK(made.size() == 1);
-  fs::remove_all(folder);
 }

@@ -6,6 +6,7 @@
 
 #include "sphparam/errors.h"
 #include "sphparam/survey/survey.h"
+#include "support/folder.h"
 #include "survey/mesh_files.h"
 
 using namespace sphparam;
@@ -17,18 +18,15 @@ using Names = std::vector<std::string>;
 
 /// scans/, a folder elsewhere beside it, and a file that is a mesh by its name; gone at the end.
 struct Place {
-  fs::path folder, scans;
+  const tests::Folder folder;
+  const fs::path scans = folder / "scans";
 
   Place() {
-    std::string name = (fs::temp_directory_path() / "sphparam_links_XXXXXX").string();
-    folder = ::mkdtemp(name.data());
-    scans = folder / "scans";
     fs::create_directories(scans / "inner");
     fs::create_directories(folder / "elsewhere");
     for (const char* mesh : {"scans/b.off", "scans/inner/c.off", "elsewhere/e.off"})
       std::ofstream(folder / mesh) << "OFF\n";
   }
-  ~Place() { fs::remove_all(folder); }
 };
 
 }  // namespace

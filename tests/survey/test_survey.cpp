@@ -1,5 +1,3 @@
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdint>
@@ -13,9 +11,9 @@
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/survey/survey.h"
+#include "support/folder.h"
 #include "support/joined.h"
 #include "support/one_sided.h"
-#include "support/place.h"
 #include "support/shaken.h"
 #include "support/test_meshes.h"
 #include "support/without_area.h"
@@ -30,11 +28,10 @@ constexpr double pi = 3.141592653589793;
 
 /// A folder with a mesh of each end, gone at the end.
 struct Meshes {
-  fs::path folder;
+  const Folder own;
+  const fs::path folder = own.path;
 
   Meshes() {
-    std::string name = (fs::temp_directory_path() / "sphparam_survey_XXXXXX").string();
-    folder = ::mkdtemp(name.data());
     fs::create_directory(folder / "deeper");
     write("ball.ply", icosphere(2));
     TriangleMesh open = icosphere(2);
@@ -51,7 +48,6 @@ struct Meshes {
                               "lobes.label.gii.gz", "bold.func.gii"})
       std::ofstream(folder / other) << "no mesh\n";
   }
-  ~Meshes() { fs::remove_all(folder); }
 
   void write(const std::string& name, const TriangleMesh& mesh) const {
     MeshFile file;
@@ -121,12 +117,12 @@ void write_tetrahedron(const fs::path& path, const std::vector<std::uint16_t>& i
 }  // namespace
 
 TEST_CASE("survey: what maps as it is and yet is odd is told, in records and on the page") {
-  const Place place;
+  const Folder folder;
   const Meshes meshes;
   TriangleMesh inside_out = icosphere(1);
   inside_out.triangles.col(1).swap(inside_out.triangles.col(2));
   meshes.write("turned.obj", inside_out);
-  const SurveyOptions options{.picture_size = 0, .records = place / ""};
+  const SurveyOptions options{.picture_size = 0, .records = folder / ""};
   for (int time = 0; time < 2; ++time) {  // found, then taken from its record
     const Survey survey = survey_folder(meshes.folder.string(), options);
     const SurveyedMesh& turned = named(survey, "turned.obj");

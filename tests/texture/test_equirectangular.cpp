@@ -1,8 +1,5 @@
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 #include <random>
 #include <string>
@@ -13,6 +10,7 @@
 #include "sphparam/io/safe_file.h"
 #include "sphparam/texture/equirectangular_image.h"
 #include "support/direction_image.h"
+#include "support/folder.h"
 #include "texture/texture_pyramid.h"
 
 using namespace sphparam;
@@ -104,8 +102,8 @@ TEST_CASE("equirectangular: nothing aliases: one texel of a row at the pole weig
 }
 
 TEST_CASE("equirectangular: numbers that are measured are no colours, light may be bright") {
-  const std::string path = std::filesystem::temp_directory_path() /
-                           ("sphparam_heights_" + std::to_string(getpid()) + ".exr");
+  const Folder folder;
+  const std::string path = folder / "heights.exr";
   Image image(8, 4, 3);
   const auto refused = [&](size_t bright) {
     for (size_t i = 0; i < image.pixels.size(); ++i)
@@ -126,18 +124,16 @@ TEST_CASE("equirectangular: numbers that are measured are no colours, light may 
             ": 50 % of its pixels have values outside of 0 to 1, which are cut to that");
   CHECK_THAT(refused(17), Catch::Contains("no colours: 53.1 % of its pixels"));
   // Of other formats than EXR one in a hundred: TIFF has floats too.
-  const std::string tiff = path.substr(0, path.size() - 3) + "tif";
+  const std::string tiff = folder / "heights.tif";
   const std::vector<char> bytes =
       encode_image(image, ImageFormat::Tiff, {.sample_type = SampleType::Float});
   write_file(tiff, {bytes.begin(), bytes.end()});
   CHECK_THROWS_AS(read_equirectangular(tiff), ImageError);
-  std::filesystem::remove(path);
-  std::filesystem::remove(tiff);
 }
 
 TEST_CASE("equirectangular: heights that were baked in floats are told, whatever their range") {
-  const std::string path = std::filesystem::temp_directory_path() /
-                           ("sphparam_baked_" + std::to_string(getpid()) + ".exr");
+  const Folder folder;
+  const std::string path = folder / "baked.exr";
   Image image(8, 4, 1);
   std::fill(image.pixels.begin(), image.pixels.end(), 0.5F);
   const auto warning_of = [&](ImageTexts texts) {
@@ -155,12 +151,11 @@ TEST_CASE("equirectangular: heights that were baked in floats are told, whatever
   CHECK(warning_of({{"sphparam:map", "ao"}, about}).empty());
   CHECK(warning_of({{"sphparam:map", "basecolor"}}).empty());
   CHECK(warning_of({}).empty());
-  std::filesystem::remove(path);
 }
 
 TEST_CASE("equirectangular: a colour profile that is not sRGB's is told") {
-  const std::string path = std::filesystem::temp_directory_path() /
-                           ("sphparam_profile_" + std::to_string(getpid()) + ".jpg");
+  const Folder folder;
+  const std::string path = folder / "profile.jpg";
   const std::vector<char> jpeg = encode_image(Image(8, 4, 3), ImageFormat::Jpeg);
   std::string bytes(jpeg.begin(), jpeg.end());
   write_file(path, bytes);
@@ -172,7 +167,6 @@ TEST_CASE("equirectangular: a colour profile that is not sRGB's is told") {
         display_name(path) +
             ": its colours are taken as sRGB; its colour profile, without a name, "
             "is not heeded (convert the image to sRGB)");
-  std::filesystem::remove(path);
 }
 
 TEST_CASE("equirectangular: an image that is not twice as wide as high is told, but for a texel") {

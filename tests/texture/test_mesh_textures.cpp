@@ -1,5 +1,3 @@
-#include <unistd.h>
-
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -13,6 +11,7 @@
 #include "image/image_codec.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/texture/mesh_textures.h"
+#include "support/folder.h"
 #include "support/test_meshes.h"
 #include "texture/read_textures.h"
 #include "texture/source_texture.h"
@@ -35,12 +34,11 @@ MeshFile ball(bool with_texcoords) {
   return file;
 }
 
-std::string green_png() {
+std::string green_png(const Folder& folder) {
   Image image(2, 2, 3);
   for (size_t i = 1; i < image.pixels.size(); i += 3) image.pixels[i] = 1;
   const std::vector<char> bytes = encode_image(image, ImageFormat::Png);
-  const std::string path = std::filesystem::temp_directory_path() /
-                           ("sphparam_green_" + std::to_string(getpid()) + ".png");
+  const std::string path = folder / "green.png";
   write_file(path, {bytes.begin(), bytes.end()});
   return path;
 }
@@ -48,7 +46,8 @@ std::string green_png() {
 }  // namespace
 
 TEST_CASE("shown textures: an image that is named is on all of the mesh, where it has a place") {
-  const std::string image = green_png();
+  const Folder folder;
+  const std::string image = green_png(folder);
   const ShownTextures shown = shown_textures(ball(true), "ball.ply", image);
   CHECK(shown.warning.empty());
   REQUIRE(shown.textures->of_materials.size() == 1);
@@ -126,9 +125,8 @@ TEST_CASE("read_textures: images of one name are told apart by folder, path and 
   CHECK(texel({.image = "tex.png", .bytes = grey(0)}) == 0);
   CHECK(reader.read(white, "a").image == reader.read(white, "b").image);  // decoded once
 
-  const std::filesystem::path place =
-      std::filesystem::temp_directory_path() / ("sphparam_names_" + std::to_string(getpid()));
-  for (const char* folder : {"a", "b"}) std::filesystem::create_directories(place / folder);
+  const Folder place;
+  for (const char* folder : {"a", "b"}) std::filesystem::create_directory(place / folder);
   const auto write = [&](const char* path, float value) {
     const std::shared_ptr<const std::vector<char>> bytes = grey(value);
     write_file(place / path, {bytes->begin(), bytes->end()});
@@ -138,11 +136,10 @@ TEST_CASE("read_textures: images of one name are told apart by folder, path and 
   const auto in = [&](const std::string& folder, const std::string& path) {
     return texel({.image = "tex.png", .folder = folder, .path = path});
   };
-  CHECK(in(place, "a/tex.png") == 65535);
-  CHECK(in(place, "b/tex.png") == 0);
+  CHECK(in(place.path, "a/tex.png") == 65535);
+  CHECK(in(place.path, "b/tex.png") == 0);
   CHECK(in(place / "a", "tex.png") == 65535);
   CHECK(in(place / "b", "tex.png") == 0);
-  std::filesystem::remove_all(place);
 }
 
 TEST_CASE("read_textures: a texture that cannot be used is refused although its image is known") {

@@ -21,6 +21,7 @@
 #include "sphparam/io/sphere_file.h"
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/sphere/spherical_coordinates.h"
+#include "support/folder.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -382,7 +383,8 @@ TEST_CASE("gltf_reader: quantised and sparse accessors are decoded") {
 }
 
 TEST_CASE("gltf_reader: buffers come from data URIs or from files next to the glTF, nowhere else") {
-  const fs::path folder = fs::temp_directory_path() / ("sphparam_gltf_" + std::to_string(getpid()));
+  const Folder own;
+  const fs::path& folder = own.path;
   fs::create_directories(folder / "inner");
   const Gltf gltf = tetrahedron_gltf();
   const auto write = [](const fs::path& path, const std::string& bytes) {
@@ -426,7 +428,6 @@ TEST_CASE("gltf_reader: buffers come from data URIs or from files next to the gl
   CHECK(open_files() == open_before);
   CHECK(contains(said("data:text/html,x"), "data URI"));
   CHECK(contains(complaint(gltf.json("a%20b+c.bin")), "only a glTF read from a file"));
-  fs::remove_all(folder);
 
   Gltf tiny;  // one triangle, its 36 bytes as base64
   tiny.add(floats({0, 0, 0, 1, 0, 0, 0, 1, 0}), 5126, 3, "VEC3");

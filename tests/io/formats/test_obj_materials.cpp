@@ -1,11 +1,10 @@
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
 
 #include "io/attributes/material_comments.h"
 #include "io/reading.h"
+#include "support/folder.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;
@@ -17,14 +16,9 @@ namespace {
 /// it.
 class ObjFolder {
  public:
-  ObjFolder() { fs::create_directories(folder_); }
-  ~ObjFolder() { fs::remove_all(folder_); }
-  ObjFolder(const ObjFolder&) = delete;
-  ObjFolder& operator=(const ObjFolder&) = delete;
-
   void write(const std::string& name, const std::string& text) const {
-    fs::create_directories((folder_ / name).parent_path());
-    std::ofstream(folder_ / name, std::ios::binary) << text;
+    fs::create_directories((path() / name).parent_path());
+    std::ofstream(path() / name, std::ios::binary) << text;
   }
 
   MeshFile read_with(const std::string& statement, const std::string& library = "") const {
@@ -32,13 +26,13 @@ class ObjFolder {
                        "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n"
                        "usemtl red\nf 1/1 2/2 3/3\nusemtl wood\nf 3/3 2/2 1/1\n");
     if (!library.empty()) write("a.mtl", library);
-    return read_mesh((folder_ / "a.obj").string());
+    return read_mesh(folder_ / "a.obj");
   }
 
-  const fs::path& path() const { return folder_; }
+  const fs::path& path() const { return folder_.path; }
 
  private:
-  fs::path folder_ = fs::temp_directory_path() / ("sphparam_mtl_" + std::to_string(getpid()));
+  Folder folder_;
 };
 
 }  // namespace

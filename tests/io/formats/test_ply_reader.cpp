@@ -5,10 +5,10 @@
 #include <cstring>
 #include <fstream>
 
-#include "io/folder.h"
 #include "io/reading.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/mesh_writer.h"
+#include "support/folder.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;
@@ -427,7 +427,7 @@ const std::string two_pages =
 struct PlyFolder : Folder {
   MeshFile read(const std::string& text) const {
     write("a.ply", text);
-    return read_mesh(file("a.ply"));
+    return read_mesh(*this / "a.ply");
   }
   void write(const std::string& name, const std::string& text) const {
     std::filesystem::create_directories((path / name).parent_path());
@@ -485,8 +485,8 @@ TEST_CASE("ply_reader: images of our own files are those of the materials, where
   folder.write("p0.png", "");
   folder.write("maps/p1.png", "");
   const MeshFile read_first = folder.read(two_pages);
-  write_mesh(folder.file("b.ply"), read_first);
-  const MeshFile again = read_mesh(folder.file("b.ply"));
+  write_mesh(folder / "b.ply", read_first);
+  const MeshFile again = read_mesh(folder / "b.ply");
   CHECK(again.comments == read_first.comments);
   CHECK(again.materials == read_first.materials);
   CHECK(images_of(again) == images_of(read_first));
@@ -495,7 +495,7 @@ TEST_CASE("ply_reader: images of our own files are those of the materials, where
   CHECK(losses_of_writing(read_first, read(serialise_mesh("c.obj", read_first), "c.obj")) ==
         Words{"not carried: texnumber of faces", "not carried: colours and textures of materials"});
   std::filesystem::remove(folder.path / "p0.png");
-  CHECK(read_mesh(folder.file("b.ply")).base_colours.empty());
+  CHECK(read_mesh(folder / "b.ply").base_colours.empty());
   CHECK(images_of(folder.read(two_pages)) == Words{"p0.png", "maps/p1.png"});
 }
 

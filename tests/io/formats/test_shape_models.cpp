@@ -2,11 +2,11 @@
 #include <fstream>
 #include <sstream>
 
-#include "io/folder.h"
 #include "io/reading.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/mapped_mesh.h"
 #include "sphparam/mesh/topology.h"
+#include "support/folder.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -217,8 +217,8 @@ TEST_CASE("ICQ: the vertices are the vectors of the file that source_vertex name
 
 TEST_CASE("ICQ: the body maps") {
   const Folder folder;
-  std::ofstream(folder.file("body.icq")) << icq(6);
-  const MappedMesh mapped = load_mapped(folder.file("body.icq"));
+  std::ofstream(folder / "body.icq") << icq(6);
+  const MappedMesh mapped = load_mapped(folder / "body.icq");
   CHECK(mapped.certificate().bijective());
 }
 
