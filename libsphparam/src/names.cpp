@@ -181,6 +181,11 @@ std::string options_line(const RepairOptions& options) {
   } else if (options.longest_handle != RepairOptions{}.longest_handle) {
     line += " --max-handle " + short_number(100 * options.longest_handle, 6) + "%";
   }
+  if (options.edge_length > 0) {
+    line += " --max-edge " + shortest(options.edge_length);
+  } else if (options.edge_share > 0) {
+    line += " --max-edge " + short_number(100 * options.edge_share, 6) + "%";
+  }
   return line;
 }
 

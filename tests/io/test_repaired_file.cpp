@@ -158,6 +158,37 @@ TEST_CASE("repaired_file: a created vertex has the mean of its neighbours and no
   CHECK(result.find_face_property("source_face")->values == std::vector<double>{0, -1, -1, -1});
 }
 
+TEST_CASE("repaired_file: where edges are halved, everything is there what lies between") {
+  MeshFile file = labelled(octahedron());
+  std::vector<double> heights;
+  for (Vertex v = 0; v < file.mesh.vertex_count(); ++v)
+    heights.push_back(file.mesh.position(v).z());
+  file.set_vertex_property({"height", ScalarType::Float64, heights});
+  RepairOptions options = RepairOptions::none();
+  options.edge_length = 0.3;
+  const RepairedMesh repaired = repair_mesh(file.mesh, options);
+  const MeshFile result = repaired_file(file, repaired);
+  REQUIRE(result.mesh.vertex_count() > 100);
+  const std::vector<double>& between = result.find_vertex_property("height")->values;
+  const std::vector<double>& source = result.find_vertex_property("source_vertex")->values;
+  for (Vertex v = 0; v < result.mesh.vertex_count(); ++v) {
+    CHECK(between[v] == result.mesh.position(v).z());
+    CHECK(source[v] == (v < 6 ? v : -1));
+  }
+  const std::vector<double>& face = result.find_face_property("source_face")->values;
+  for (Face f = 0; f < result.mesh.face_count(); ++f) {  // halves of a face name it
+    const Vector3 middle = (result.mesh.position(result.mesh.triangles(f, 0)) +
+                            result.mesh.position(result.mesh.triangles(f, 1)) +
+                            result.mesh.position(result.mesh.triangles(f, 2))) /
+                           3;
+    const auto whole = static_cast<Face>(face[f]);
+    const Vector3 normal = file.mesh.position(file.mesh.triangles(whole, 0)) +
+                           file.mesh.position(file.mesh.triangles(whole, 1)) +
+                           file.mesh.position(file.mesh.triangles(whole, 2));
+    CHECK(middle.dot(normal) == Approx(1).epsilon(1e-12));  // |x| + |y| + |z| = 1 on the octahedron
+  }
+}
+
 TEST_CASE("repaired_file: ids of the file survive a repair of a mesh that was renumbered before") {
   TriangleMesh mesh = icosphere(1);
   mesh.triangles.conservativeResize(mesh.face_count() - 1, 3);

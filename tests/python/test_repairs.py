@@ -151,13 +151,13 @@ def test_notes_say_what_is_typed_here():
 
 def test_a_centre_outside_says_what_is_typed_here(tmp_path):
     away = sp.map(V + [0, 0, 9.0], F, quality="draft")
-    with pytest.warns(sp.LossWarning, match=r"outside of the surface: centre=inspect\(m\)\.body\.centroid is "):
+    with pytest.warns(sp.LossWarning, match='outside of the surface: centre="centroid" is '):
         away.bake_files({"radius": tmp_path / "r.png"}, size=16)
-    with pytest.warns(sp.LossWarning, match=r': bake\("radius", centre=inspect\(m\)\.body\.centroid\) is the distance'):
+    with pytest.warns(sp.LossWarning, match=r': bake\("radius", centre="centroid"\) is the distance'):
         away.bake_files({"height": tmp_path / "h.png"}, size=16)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        away.bake_files({"radius": tmp_path / "r.png"}, size=16, centre=sp.inspect(away).body.centroid)
+        away.bake_files({"radius": tmp_path / "r.png"}, size=16, centre="centroid")
 
 
 @pytest.mark.filterwarnings("ignore::sphparam.LossWarning")
@@ -322,3 +322,20 @@ def test_the_papers_own_settings_are_heard():
     assert (few != many).any()
     with pytest.raises(ValueError, match="epsilon"):
         sp.map(vertices, faces, method="paper", paper=dict(epsilon=2.0))
+
+
+def test_edges_that_are_longer_are_halved():
+    box = sp.Mesh([[0, 0, 0], [4, 0, 0], [4, 1, 0], [0, 1, 0], [0, 0, 1], [4, 0, 1], [4, 1, 1], [0, 1, 1]],
+                  [[0, 2, 1], [0, 3, 2], [4, 5, 6], [4, 6, 7], [0, 1, 5], [0, 5, 4],
+                   [1, 2, 6], [1, 6, 5], [2, 3, 7], [2, 7, 6], [3, 0, 4], [3, 4, 7]],
+                  values={"x": [0, 4, 4, 0, 0, 4, 4, 0]})  # fmt: skip
+    cut = sp.repair(box, edge_length=0.5)
+    ends = cut.vertices[cut.faces]
+    assert np.linalg.norm(ends - np.roll(ends, 1, axis=1), axis=2).max() <= 0.5
+    assert np.array_equal(cut.values["x"], cut.vertices[:, 0])
+    mapped = sp.map(box, repair=dict(edge_share=0.5 / np.sqrt(18)))
+    assert mapped.certificate.one_to_one and len(mapped.points) == len(cut.vertices)
+    with pytest.raises(ValueError, match="edge_length: from 0 is needed"):
+        sp.repair(box, edge_length=-1)
+    with pytest.raises(ValueError, match="faces of the mesh, and only 715827882 have numbers"):
+        sp.repair(box, edge_length=1e-5)

@@ -34,7 +34,7 @@ bool read_share(const std::string& text, std::optional<double>& share) {
 }
 
 /// "12.5", a length, or "40%" of the diagonal.
-bool read_longest(const std::string& text, std::optional<Amount>& longest) {
+bool read_length(const std::string& text, std::optional<Amount>& longest) {
   longest = amount_of(text);
   return longest && std::isfinite(longest->value) && longest->value > 0;
 }
@@ -49,6 +49,11 @@ void settle_weld(const RepairArguments& arguments, RepairOptions& options) {
   if (!arguments.weld) return;
   options.cracks = true;
   (arguments.weld->percent ? options.weld_share : options.weld_length) = arguments.weld->of(1);
+}
+
+void settle_edges(const RepairArguments& arguments, RepairOptions& options) {
+  const std::optional<Amount>& longest = arguments.longest_edge;
+  if (longest) (longest->percent ? options.edge_share : options.edge_length) = longest->of(1);
 }
 
 void settle_handles(const RepairArguments& arguments, RepairOptions& options) {
@@ -84,7 +89,10 @@ void require_sensible_loops(const RepairArguments& arguments, bool wanted) {
 void declare_repair_options(Declaration& command, RepairArguments& arguments) {
   arguments.given = command.given();
   const auto longest = [&](const std::string& text) {
-    return read_longest(text, arguments.longest_handle);
+    return read_length(text, arguments.longest_handle);
+  };
+  const auto edge = [&](const std::string& text) {
+    return read_length(text, arguments.longest_edge);
   };
   const auto weld = [&](const std::string& text) { return read_weld(text, arguments.weld); };
   const auto read = [&](const std::string& text) { return read_share(text, arguments.least_kept); };
@@ -117,6 +125,9 @@ void declare_repair_options(Declaration& command, RepairArguments& arguments) {
               "Remove handles along loops of at most this length; % is of the diagonal of its "
               "part's bounding box (--repair: " +
                   short_number(100 * RepairOptions{}.longest_handle) + "%)")
+      .parsed("--max-edge", "LENGTH", edge, "expected a length, as in 12.5 or 1%",
+              "At last halve edges that are longer, until none is: a map bends within large flat "
+              "faces then, not at their sides; % is of the bounding box's diagonal")
       .group("Options");
 }
 
@@ -132,7 +143,7 @@ std::optional<RepairOptions> wanted_repairs(const RepairArguments& arguments) {
   const bool chosen = arguments.component > 0 || arguments.least_kept;
   if (arguments.words.empty() && !chosen && !arguments.largest_hole &&
       arguments.keep_holes.empty() && !arguments.longest_handle && !arguments.weld &&
-      !arguments.given("--handles")) {
+      !arguments.longest_edge && !arguments.given("--handles")) {
     require_sensible_loops(arguments, false);
     return std::nullopt;
   }
@@ -156,6 +167,7 @@ std::optional<RepairOptions> wanted_repairs(const RepairArguments& arguments) {
     options.largest_hole = arguments.largest_hole;
   }
   settle_weld(arguments, options);
+  settle_edges(arguments, options);
   if (!arguments.keep_holes.empty()) options.holes = options.keep_holes = true;
   settle_handles(arguments, options);
   require_sensible_loops(arguments, options.handles);
@@ -188,6 +200,7 @@ std::string typed_again(const RepairArguments& a) {
   line += typed_flag("--keep-holes", a.keep_holes);
   if (a.given("--handles")) line += " --handles " + name_of(a.handle_choice);
   if (a.longest_handle) line += " --max-handle " + typed(*a.longest_handle);
+  if (a.longest_edge) line += " --max-edge " + typed(*a.longest_edge);
   return line;
 }
 

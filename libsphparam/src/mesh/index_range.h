@@ -17,13 +17,15 @@ inline bool counts_from_one(const TriangleMesh& mesh) {
 }
 
 /// Half-edges are numbered by ints, 3·face + corner.
-/// Throws: std::length_error for more faces or vertices than these reach.
+constexpr Eigen::Index most_faces = std::numeric_limits<int>::max() / 3;
+
+/// Throws: std::length_error for more faces or vertices than have numbers.
 inline void require_numbered(Eigen::Index faces, Eigen::Index vertices) {
   constexpr Eigen::Index most = std::numeric_limits<int>::max();
-  if (faces <= most / 3 && vertices <= most) return;
+  if (faces <= most_faces && vertices <= most) return;
   throw std::length_error("a mesh of " + std::to_string(faces) + " faces and " +
                           std::to_string(vertices) + " vertices: of faces " +
-                          std::to_string(most / 3) + " have numbers, of vertices " +
+                          std::to_string(most_faces) + " have numbers, of vertices " +
                           std::to_string(most) + "; make it coarser, or take it in parts");
 }
 

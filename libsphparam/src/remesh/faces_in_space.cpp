@@ -1,6 +1,7 @@
 #include "sphparam/remesh/faces_in_space.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "mesh/box.h"
@@ -96,13 +97,33 @@ std::string kinds(const FacesInSpace& found, const TriangleMesh& mesh) {
   return joined(words, "; ");
 }
 
+double longest_edge(const TriangleMesh& mesh) {
+  double longest = 0;
+  for (Face f = 0; f < mesh.face_count(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      const Vector3 side =
+          mesh.position(mesh.triangles(f, k)) - mesh.position(mesh.triangles(f, (k + 1) % 3));
+      longest = std::max(longest, side.norm());
+    }
+  }
+  return longest;
+}
+
+/// Twice the side of a triangle of the grid, if all were alike on the surface.
+double fine_enough(const TriangleMesh& surface, const TriangleMesh& grid) {
+  double area = 0;
+  for (Face f = 0; f < surface.face_count(); ++f) area += area_of(surface, f);
+  return 2 * std::sqrt(4 / std::sqrt(3.0) * area / static_cast<double>(grid.face_count()));
+}
+
 std::string what_helps(const FacesInSpace& found, const MappedMesh& source,
                        const MappedMesh& made) {
   if (found.source_pairs > 0)
     return "the mesh itself has " + counted(found.source_pairs, "pair", "pairs") + " that cross";
-  return source.mesh().face_count() < made.mesh().face_count()
-             ? "cut the triangles of the mesh smaller than the grid's before it is mapped, each "
-               "flat in four: a map bends at their sides"
+  const double enough = fine_enough(source.mesh(), made.mesh());
+  return longest_edge(source.mesh()) > 1.1 * enough
+             ? "a map bends at the sides of large triangles: map the mesh with --max-edge " +
+                   short_number(enough, 2)
              : "on a finer grid they are a smaller share of it";
 }
 

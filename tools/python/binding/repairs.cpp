@@ -30,6 +30,8 @@ RepairOptions repair_options(const py::dict& values) {
       .take("keep_holes", options.keep_holes)
       .take("weld_share", options.weld_share)
       .take("weld_length", options.weld_length)
+      .take("edge_share", options.edge_share)
+      .take("edge_length", options.edge_length)
       .take("longest_handle", options.longest_handle)
       .take("longest_handle_length", options.longest_handle_length)
       .take("handle_choice", options.handle_choice,

@@ -34,6 +34,8 @@ def repair(
     handle_choice: str = "shortest",
     longest_handle: float = 0.35,
     longest_handle_length: float = 0.0,
+    edge_share: float = 0.0,
+    edge_length: float = 0.0,
     require_sphere: bool = True,
     values: Optional[Mapping[str, Any]] = None,
     progress: Progress = None,
@@ -85,6 +87,9 @@ def repair(
     longest_handle
         The longest loop that a handle may be cut along, in diagonals of the bounding box of the part
         that it is in; in units of the mesh instead where ``longest_handle_length`` is more than 0.
+    edge_share, edge_length
+        More than 0: at last, edges that are longer are halved until none is, in diagonals of the bounding box, or
+        in units of the mesh. A map bends within large flat faces then, not at their sides.
     require_sphere
         False: what cannot be mended comes back as far as it was; :func:`inspect` says what it is.
 
@@ -167,6 +172,9 @@ def _known(options: Dict[str, Any]) -> Dict[str, Any]:
     """Those that say something."""
     known = {name: value for name, value in options.items() if value is not None}
     for name in ("weld_share", "weld_length"):
+        if name in known and not 0 <= _arrays.real(known[name], name) < float("inf"):
+            raise ValueError(f"{name}: from 0 is needed, not {known[name]!r}")
+    for name in ("edge_share", "edge_length"):
         if name in known and not 0 <= _arrays.real(known[name], name) < float("inf"):
             raise ValueError(f"{name}: from 0 is needed, not {known[name]!r}")
     if {"weld_share", "weld_length"} <= known.keys():

@@ -56,6 +56,10 @@ struct RepairOptions {
   /// that it is in; a length of the mesh instead where `longest_handle_length` is more than 0.
   double longest_handle = 0.35;
   double longest_handle_length = 0;
+  /// More than 0: at last, edges of a closed surface that are longer are halved until none is; in
+  /// diagonals of the box about it, or a length of the mesh instead where `edge_length` is more
+  /// than 0. The surface stays what it is: a map has room to bend within its large faces.
+  double edge_share = 0, edge_length = 0;
   /// Ends where no component is large enough (`parts.refused`): whatever follows, several stay.
   bool only_whole = false;
 
@@ -95,6 +99,7 @@ enum class RepairKind {
   FlatFaceTurned,     // with its neighbour across its longest edge
   FlatFaceCollapsed,  // two vertices at the same place became one
   UnusedVertexDropped,
+  EdgeHalved,  // it was longer than was asked for
 };
 
 /// What the ids of an action name; edges have two.
@@ -112,10 +117,18 @@ struct RepairAction {
 /// The message of an action, for instance after its ids were renamed.
 std::string describe(const RepairAction& action);
 
-/// A vertex that the input does not have: the mean of some of the input's.
+/// A vertex of the input, and how much it weighs in a mean.
+struct WeighedVertex {
+  Vertex vertex;
+  double weight;
+
+  bool operator==(const WeighedVertex&) const = default;
+};
+
+/// A vertex that the input does not have: the mean of some of the input's, by their weights.
 struct CreatedVertex {
   Vertex vertex;
-  std::vector<Vertex> mean_of;  // ids in the input; repeated ones weigh more
+  std::vector<WeighedVertex> mean_of;
 };
 
 /// A corner that the input does not have: on a side of a face that was split. What corners carry is
@@ -197,12 +210,15 @@ struct RepairedMesh {
 /// has a shorter one of its class; the faces beside it get copies of its vertices, and both rims
 /// get caps, bent apart and out of the surface's way. No position changes, and no face but its
 /// names. Components are ranked by area; of equal ones the one with more faces comes first, then
-/// the one with the lowest vertex. Throws: NoSuchComponent; std::invalid_argument unless component
-/// ≥ 0, least_kept from 0 to 1,
-///         largest_hole ≥ 3, and longest_handle, longest_handle_length ≥ 0, or
-///         where a weld is NaN.
-/// Ensures: deterministic. Cost: O((#V + #F) log #F), for any valence and any hole; about
-///          that again for each doubling of the length of handles, on all cores.
+/// the one with the lowest vertex. Long edges are halved where they are the longest of both of
+/// their faces (Rivara 1997), so that angles stay more than half of what they were.
+///
+/// Throws: NoSuchComponent; std::range_error where edges are to be so short that faces could not be
+///         numbered; std::invalid_argument unless component ≥ 0, least_kept from 0 to 1,
+///         largest_hole ≥ 3, and longest_handle, longest_handle_length, edge_share, edge_length ≥
+///         0, or where a weld is NaN.
+/// Ensures: deterministic. Cost: O((#V + #F) log #F), for any valence and any hole, #F of the
+///          result; about that again for each doubling of the length of handles, on all cores.
 RepairedMesh repair_mesh(const TriangleMesh& mesh, const RepairOptions& options = {});
 
 }  // namespace sphparam

@@ -19,15 +19,16 @@ constexpr const char* source_vertex = "source_vertex";
 constexpr const char* source_face = "source_face";
 
 /// Whole numbers may be labels: of colours alone there is something between two of them.
-double mean_value(const Property& property, bool is_colour, const std::vector<Vertex>& vertices) {
-  if (is_floating(property.type) && !is_colour) {
-    double sum = 0;
-    for (const Vertex v : vertices) sum += property.values[v];
-    return sum / static_cast<double>(vertices.size());
+double mean_value(const Property& property, bool is_colour,
+                  const std::vector<WeighedVertex>& vertices) {
+  double total = 0, sum = 0;
+  for (const auto& [v, weight] : vertices) {
+    total += weight;
+    sum += weight * property.values[v];
   }
+  if (is_floating(property.type) && !is_colour) return sum / total;
   std::vector<std::pair<double, double>> weighed;
-  const double weight = 1 / static_cast<double>(vertices.size());
-  for (const Vertex v : vertices) weighed.emplace_back(property.values[v], weight);
+  for (const auto& [v, weight] : vertices) weighed.emplace_back(property.values[v], weight / total);
   return is_colour ? mixed_colour(property.name, property.type, weighed)
                    : weightiest_label(weighed);
 }

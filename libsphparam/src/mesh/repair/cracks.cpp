@@ -175,15 +175,6 @@ std::vector<Vertex> vertices_of(const std::vector<FaceSide>& sides) {
   return vertices;
 }
 
-/// Of the box about the surface, as `shape` has it.
-double diagonal(const RepairState& state) {
-  Box box;
-  for (const auto& face : state.faces) {
-    for (const Vertex v : face) box.add(state.shape[v]);
-  }
-  return state.faces.empty() ? 0 : (box.upper - box.lower).norm();
-}
-
 class CrackCloser {
  public:
   CrackCloser(RepairState& state, double tolerance)
@@ -337,7 +328,7 @@ class CrackCloser {
 void close_cracks(RepairState& state, const RepairOptions& options) {
   const bool welds = options.weld_share >= 0 || options.weld_length >= 0;
   const double tolerance = options.weld_length >= 0 ? options.weld_length / state.scale
-                           : welds                  ? options.weld_share * diagonal(state)
+                           : welds                  ? options.weld_share * state.diagonal()
                                                     : 0;
   CrackCloser closer(state, tolerance);
   if (welds) closer.weld();

@@ -97,6 +97,14 @@ bool all_indices_inside(const RepairState& state) {
   });
 }
 
+/// Whether there was something to do.
+bool halve_wanted(RepairState& state, const RepairOptions& options) {
+  if (options.edge_share == 0 && options.edge_length == 0) return false;
+  const long done_before = state.log_size();
+  halve_long_edges(state, options);
+  return state.log_size() > done_before;
+}
+
 bool names_no_place(const TriangleMesh& mesh, Face f) {
   for (int k = 0; k < 3; ++k) {
     const Vertex v = mesh.triangles(f, k);
@@ -165,6 +173,8 @@ RepairedMesh repair_mesh(const TriangleMesh& mesh, const RepairOptions& options)
   require_one_of("handle_choice", options.handle_choice, HandleChoice::Area);
   require_at_least("longest_handle", options.longest_handle, 0);
   require_at_least("longest_handle_length", options.longest_handle_length, 0);
+  require_at_least("edge_share", options.edge_share, 0);
+  require_at_least("edge_length", options.edge_length, 0);
   require_at_least("weld_share", options.weld_share, -1);
   require_at_least("weld_length", options.weld_length, -1);
   require_numbered(mesh.face_count(), mesh.vertex_count());
@@ -189,6 +199,7 @@ RepairedMesh repair_mesh(const TriangleMesh& mesh, const RepairOptions& options)
     }
     if (state.log_size() == done_before || is_given_up(state, options)) break;
   }
+  if (halve_wanted(state, options)) inspection = inspect_mesh(state.mesh());
   RepairedMesh result = as_result(std::move(state), std::move(inspection));
   tell_absent_vertices(result, mesh);
   return result;

@@ -54,14 +54,16 @@ constexpr RepairKindInfo kinds[] = {
      "merged with another at the same place, to be rid of faces without area", Vertices,
      "vertices"},
     {UnusedVertexDropped, "unused-vertex-dropped", "vertex", "vertices",
-     "that no face uses dropped", Vertices, "vertices", KeepsSurface}};
+     "that no face uses dropped", Vertices, "vertices", KeepsSurface},
+    {EdgeHalved, "edge-halved", "edge", "edges", "halved, longer than asked for", Edges,
+     "between vertices", KeepsSurface}};
 
 /// Every kind, in the order of the enumeration.
 consteval bool is_complete() {
   int next = 0;
   for (const RepairKindInfo& info : kinds)
     if (static_cast<int>(info.kind) != next++) return false;
-  return next == static_cast<int>(UnusedVertexDropped) + 1;
+  return next == static_cast<int>(EdgeHalved) + 1;
 }
 static_assert(is_complete());
 

@@ -34,6 +34,42 @@ void keep(std::vector<Value>& values, const std::vector<char>& kept) {
   values.erase(values.begin() + static_cast<std::ptrdiff_t>(to), values.end());
 }
 
+double total_weight(const std::vector<WeighedVertex>& vertices) {
+  double total = 0;
+  for (const auto& [vertex, weight] : vertices) total += weight;
+  return total;
+}
+
+/// Each once, in ascending order.
+void merge_same(std::vector<WeighedVertex>& vertices) {
+  std::ranges::stable_sort(vertices, {}, &WeighedVertex::vertex);
+  size_t last = 0;
+  for (size_t i = 1; i < vertices.size(); ++i) {
+    if (vertices[i].vertex == vertices[last].vertex)
+      vertices[last].weight += vertices[i].weight;
+    else
+      vertices[++last] = vertices[i];
+  }
+  vertices.resize(last + 1);
+}
+
+/// What these are means of, each as heavy as the others: weights stay whole numbers where what is
+/// halved again and again is asked, so that nothing is lost by rounding.
+std::vector<WeighedVertex> origins_of(const RepairState& state,
+                                      const std::vector<Vertex>& parents) {
+  double heaviest = 1;
+  for (const Vertex v : parents) heaviest = std::max(heaviest, total_weight(state.mean_of[v]));
+  std::vector<WeighedVertex> origins;
+  for (const Vertex v : parents) {
+    if (state.vertex_origin[v] >= 0) origins.push_back({state.vertex_origin[v], heaviest});
+    const double times = heaviest / total_weight(state.mean_of[v]);
+    for (const auto& [vertex, weight] : state.mean_of[v])
+      origins.push_back({vertex, times * weight});
+  }
+  if (heaviest > 1) merge_same(origins);
+  return origins;
+}
+
 /// Where a corner lies in its face of the input.
 SurfacePoint place_of(const RepairState& state, int corner_like) {
   if (corner_like < 0) return state.blend_at(corner_like).between;
@@ -77,20 +113,18 @@ Vertex RepairState::copy_vertex(Vertex v) {
   positions.push_back(Vector3(positions[v]));
   shape.push_back(Vector3(shape[v]));
   vertex_origin.push_back(vertex_origin[v]);
-  mean_of.push_back(std::vector<Vertex>(mean_of[v]));
+  mean_of.push_back(std::vector<WeighedVertex>(mean_of[v]));
   return vertex_count() - 1;
 }
 
 Vertex RepairState::create_mean(const std::vector<Vertex>& parents) {
   Vector3 position = Vector3::Zero(), place = Vector3::Zero();
-  std::vector<Vertex> origins;
   const double share = 1.0 / static_cast<double>(parents.size());
   for (const Vertex v : parents) {
     position += share * positions[v];
     place += share * shape[v];
-    if (vertex_origin[v] >= 0) origins.push_back(vertex_origin[v]);
-    origins.insert(origins.end(), mean_of[v].begin(), mean_of[v].end());
   }
+  std::vector<WeighedVertex> origins = origins_of(*this, parents);
   positions.push_back(position);
   shape.push_back(place);
   vertex_origin.push_back(-1);
@@ -158,6 +192,14 @@ void RepairState::measure() {
   shape.clear();
   shape.reserve(positions.size());
   for (const Vector3& p : positions) shape.push_back((p - centre) / scale);
+}
+
+double RepairState::diagonal() const {
+  Box box;
+  for (const auto& face : faces) {
+    for (const Vertex v : face) box.add(shape[v]);
+  }
+  return faces.empty() ? 0 : (box.upper - box.lower).norm();
 }
 
 bool RepairState::is_finite() const {

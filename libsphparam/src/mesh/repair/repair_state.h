@@ -26,9 +26,9 @@ struct RepairState {
     SurfacePoint between;
   };
   std::vector<Blend> blends;
-  FillerMarks fillers;                       // #F: of holes that are kept
-  std::vector<std::vector<Vertex>> mean_of;  // #V: of created vertices, else empty
-  std::vector<RepairAction> actions;         // one a kind
+  FillerMarks fillers;                              // #F: of holes that are kept
+  std::vector<std::vector<WeighedVertex>> mean_of;  // #V: of created vertices, else empty
+  std::vector<RepairAction> actions;                // one a kind
   KeptParts parts;
   DroppedCavities cavities;
   std::vector<HandleLoop> handles;
@@ -60,7 +60,8 @@ struct RepairState {
   void keep_vertices(const std::vector<char>& kept);  // no face names the others
   bool has_fillers() const;
   void drop_unused_vertices();
-  void measure();  // `shape` and `scale`, of the positions there are
+  void measure();           // `shape` and `scale`, of the positions there are
+  double diagonal() const;  // of the box about the surface, as `shape` has it
 
   Triangles triangles() const;
   TriangleMesh mesh() const;
@@ -77,5 +78,6 @@ void keep_component(RepairState& state, int rank, double least_kept);
 void fill_holes(RepairState& state, const RepairOptions& options);
 void remove_handles(RepairState& state, const RepairOptions& options);
 void mend_flat_faces(RepairState& state);
+void halve_long_edges(RepairState& state, const RepairOptions& options);
 
 }  // namespace sphparam

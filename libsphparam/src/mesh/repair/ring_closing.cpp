@@ -50,7 +50,7 @@ class RingCloser {
   }
 
   /// As many as there are on the rim: attributes of a filler are as good as any.
-  static void thin_out(std::vector<Vertex>& origins) {
+  static void thin_out(std::vector<WeighedVertex>& origins) {
     constexpr size_t kept = 3;
     if (origins.size() <= kept) return;
     for (size_t i = 0; i < kept; ++i) origins[i] = origins[i * origins.size() / kept];
