@@ -493,6 +493,18 @@ TEST_CASE("harmonics_record: what is no record is refused, and says why") {
   refused(nine, "5 coefficients are no (L + 1)²");
 }
 
+TEST_CASE("records: a file of coefficients asks for no more memory than it has numbers") {
+  const auto function = [](const std::string& name, const std::string& coefficients) {
+    return R"({"name": ")" + name + R"(", "coefficients": [)" + coefficients + "]}";
+  };
+  std::string many = "1";
+  for (int i = 1; i < 1000 * 1000; ++i) many += ",1";
+  std::string text = R"({"functions": [)" + function("x", many);
+  for (const char* name : {"y", "z"}) text += ", " + function(name, "");
+  for (int k = 0; k < 50'000; ++k) text += ", " + function("f" + std::to_string(k), "");
+  CHECK_THROWS_AS(parse_harmonics(text + "]}", "b.json"), ReadError);  // 400 GB in a table
+}
+
 TEST_CASE("harmonics_record: for people, what is left in a line, and the ellipsoid") {
   const MappedMesh mapped = ball();
   const HarmonicExpansion expansion = expand_in_harmonics(mapped, {}, {.degree = 2});

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <set>
 #include <stdexcept>
 
 #include "csv_field.h"
@@ -115,11 +116,12 @@ bool is_name(const std::string& text) {
 std::vector<std::string> function_names(const Document& functions, const std::string& file) {
   constexpr std::array axes{"x", "y", "z"};
   std::vector<std::string> names;
+  std::set<std::string> seen;
   for (const Document& function : functions) {
     const auto name = function.at("name").get<std::string>();
     const bool is_expected =
         names.size() < axes.size() ? name == axes[names.size()] : is_name(name);
-    if (!is_expected || std::ranges::find(names, name) != names.end())
+    if (!is_expected || !seen.insert(name).second)
       throw ReadError(file, "functions are x, y, z and then others, each once, not " +
                                 joined(names) + (names.empty() ? "" : ", ") + one_line(name));
     names.push_back(name);
@@ -128,22 +130,23 @@ std::vector<std::string> function_names(const Document& functions, const std::st
   return names;
 }
 
-/// One function a column.
+/// One function a column: no table is larger than what the file has.
 Functions coefficient_table(const Document& functions, const std::string& file) {
-  Functions table;
-  for (size_t k = 0; k < functions.size(); ++k) {
-    const auto column = functions[k].at("coefficients").get<std::vector<double>>();
-    if (k == 0) table.resize(std::ssize(column), std::ssize(functions));
-    if (std::ssize(column) != table.rows())
+  std::vector<std::vector<double>> columns;
+  for (const Document& function : functions) {
+    columns.push_back(function.at("coefficients").get<std::vector<double>>());
+    if (columns.back().size() != columns.front().size())
       throw ReadError(file, "functions have not as many coefficients each");
-    table.col(static_cast<Eigen::Index>(k)) =
-        Eigen::Map<const VectorX>(column.data(), std::ssize(column));
   }
-  const auto rows = static_cast<double>(table.rows());
+  const auto rows = static_cast<double>(columns.front().size());
   const double degree = std::round(std::sqrt(rows)) - 1;
   if (degree < 0 || degree > greatest_harmonic_degree || (degree + 1) * (degree + 1) != rows)
     throw ReadError(file, shortest(rows) + " coefficients are no (L + 1)² with L up to " +
                               std::to_string(greatest_harmonic_degree));
+  Functions table(std::ssize(columns.front()), std::ssize(columns));
+  for (size_t k = 0; k < columns.size(); ++k)
+    table.col(static_cast<Eigen::Index>(k)) =
+        Eigen::Map<const VectorX>(columns[k].data(), table.rows());
   return table;
 }
 
