@@ -6,6 +6,7 @@
 #include <random>
 
 #include "sphparam/mesh/mesh_repair.h"
+#include "support/rows_and_columns.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -224,4 +225,26 @@ TEST_CASE("non_finite: where it is not wanted, and where nothing is left, the me
   CHECK(nothing.mesh.vertex_count() == 0);
   CHECK(nothing.mesh.face_count() == 0);
   CHECK_FALSE(nothing.inspection.is_sphere());
+}
+
+TEST_CASE("cracks: rows of a pole become one vertex each, and the seam closes") {
+  for (const auto& [rows, columns] : {std::pair(7, 12), std::pair(19, 36), std::pair(46, 90)}) {
+    RepairOptions options;
+    options.weld_share = 1e-7;
+    const RepairedMesh repaired = repair_mesh(rows_and_columns(rows, columns), options);
+    CHECK(repaired.inspection.is_sphere());
+    CHECK(repaired.mesh.vertex_count() == (rows - 2) * columns + 2);
+    CHECK(repaired.mesh.face_count() == 2 * (rows - 2) * columns);
+    CHECK(count(repaired, RepairKind::InvalidFaceRemoved) == 2 * columns);
+    CHECK(repaired.actions.size() == 3);  // these, what was welded, and what nothing uses then
+  }
+}
+
+TEST_CASE("cracks: a face whose side is no needle's keeps its vertices apart, however far a weld") {
+  TriangleMesh mesh = icosphere(2);
+  mesh.triangles = Triangles(mesh.triangles.topRows(mesh.face_count() - 1));
+  RepairOptions options = RepairOptions::none();
+  options.cracks = true;
+  options.weld_length = 0.5;  // edges are 0.3 long
+  CHECK(count(repair_mesh(mesh, options), RepairKind::VertexWelded) == 0);
 }

@@ -4,6 +4,7 @@
 
 #include "mesh/repair/weld_shares.h"
 #include "support/joined.h"
+#include "support/rows_and_columns.h"
 #include "support/shaken.h"
 #include "support/test_meshes.h"
 
@@ -92,4 +93,10 @@ TEST_CASE("weld_shares: a tenth of short edges, few single vertices and odd face
   for (Eigen::Index f = faces; f < 2 * faces; ++f)
     mesh.triangles.row(f) << mesh.triangles(f - faces, 2), mesh.triangles(f - faces, 2), 0;
   CHECK(weld_shares(mesh) == weld_shares(shaken_apart(icosphere(3), 1e-5)));
+}
+
+TEST_CASE("weld_shares: edges of a row that lies at a pole, but for rounding, are none") {
+  const Shares all = weld_shares(rows_and_columns(19, 36));
+  CHECK(all.size() == 19);
+  CHECK(all.back() == 1e-2);
 }

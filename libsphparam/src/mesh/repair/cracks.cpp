@@ -14,7 +14,8 @@
 
 // Only what lies on boundaries is looked at: vertices of edges with one face. Where welding is
 // asked for, each becomes one with the vertex of lowest id within the tolerance, unless a face has
-// both; as those that stay are apart by more than the tolerance, nothing creeps. Then an edge with
+// both, and is more than a needle that rounding made, as at the pole of a grid; as those that stay
+// are apart by more than the tolerance, nothing creeps. Then an edge with
 // one face is split at the boundary vertices that lie within the tolerance of its interior
 // (T-junctions); without a tolerance at those that lie on it but for rounding. What stays is found
 // by a grid of cells of twice the tolerance, of which each has few; what lies along an edge by a
@@ -24,6 +25,8 @@ namespace sphparam {
 namespace {
 
 constexpr double rounding = 0x1p-50;  // of a place on an edge, in lengths of the unit box
+
+constexpr double needle = 0x1p-16;  // a side of a face that welding may close, in its longest side
 
 constexpr double least_cell = 0x1p-60;  // whose numbers are whole ones in the box from −1 to 1
 
@@ -191,6 +194,7 @@ class CrackCloser {
       else
         staying.add(v, state_.shape[v]);
     }
+    remove_invalid_faces(state_);  // needles that are closed now
     sides_ = boundary_sides(state_);
   }
 
@@ -230,23 +234,30 @@ class CrackCloser {
     }
   }
 
-  /// The vertex of lowest id within the tolerance that no face has together with v.
+  /// The vertex of lowest id within the tolerance that may become one with v.
   std::optional<Vertex> twin(Vertex v, const Grid& staying) const {
     std::optional<Vertex> found;
     staying.around(state_.shape[v], [&](Vertex other) {
       const double distance = (state_.shape[v] - state_.shape[other]).norm();
-      if (distance > tolerance_ || (found && *found < other) || share_a_face(v, other)) return;
+      if (distance > tolerance_ || (found && *found < other) || are_held_apart(v, other)) return;
       found = other;
     });
     return found;
   }
 
-  bool share_a_face(Vertex v, Vertex other) const {
-    const std::vector<Face>& faces = faces_of_.at(v);
-    return std::any_of(faces.begin(), faces.end(), [&](Face f) {
+  /// By a face that has both, unless it would hardly notice.
+  bool are_held_apart(Vertex v, Vertex other) const {
+    const double apart = (state_.shape[v] - state_.shape[other]).norm();
+    return std::ranges::any_of(faces_of_.at(v), [&](Face f) {
       const auto& corners = state_.faces[f];
-      return std::find(corners.begin(), corners.end(), other) != corners.end();
+      return std::ranges::find(corners, other) != corners.end() && apart > needle * longest_side(f);
     });
+  }
+
+  double longest_side(Face f) const {
+    const auto& [a, b, c] = state_.faces[f];
+    const Vector3 &p = state_.shape[a], &q = state_.shape[b], &r = state_.shape[c];
+    return std::max({(q - p).norm(), (r - q).norm(), (p - r).norm()});
   }
 
   void merge(Vertex v, Vertex onto) {

@@ -81,7 +81,9 @@ RepairPlace place_of(RepairKind kind) { return info_of(kind).place; }
 std::string describe(const RepairAction& action) {
   const RepairKindInfo& info = info_of(action.kind);
   if (!info.one) return info.done;
-  return counted(action.count, info.one, info.many) + " " + info.done +
+  const std::string what = counted(action.count, info.one, info.many) + " " + info.done;
+  if (action.elements.empty()) return what;
+  return what +
          place_list({info.noun, "made by this repair"}, info.place, action.elements, action.count);
 }
 

@@ -51,7 +51,8 @@ Boundary boundary_of(const TriangleMesh& mesh) {
       sorted_sides(mesh.triangles, [&](Face f) { return is_triangle(mesh, f); });
   for_each_edge(sides, [&](size_t i, size_t j) {
     if (j - i != 1) return;
-    lengths.push_back((place(sides[i].low) - place(sides[i].high)).norm());
+    const double length = (place(sides[i].low) - place(sides[i].high)).norm();
+    if (length > shares_tried.back()) lengths.push_back(length);  // else one place, as at a pole
     vertices.insert(vertices.end(), {sides[i].low, sides[i].high});
   });
   if (lengths.empty()) return {};
