@@ -25,6 +25,7 @@
 #include "sphparam/correspondence/match.h"
 #include "sphparam/io/mapped_mesh.h"
 #include "sphparam/mesh/curvature.h"
+#include "sphparam/mesh/vertex_areas.h"
 #include "sphparam/stopwatch.h"
 
 using namespace sphparam;
@@ -44,7 +45,7 @@ VectorX depth(const MappedMesh& m) {
     const auto corner = [&](int k) { return mesh.position(mesh.triangles(f, k)); };
     faces[f] = triangle_area(corner(0), corner(1), corner(2));
   }
-  const VectorX area = areas_round_vertices(mesh);
+  const VectorX area = vertex_areas(mesh);
   const SurfaceAverage average(mesh, m.topology(), faces, area, depth_scale);
   Points smooth(mesh.vertex_count(), 3);
   for (int c = 0; c < 3; ++c) smooth.col(c) = average(mesh.positions.col(c).cwiseProduct(area));
@@ -82,7 +83,7 @@ int main(int argc, char** argv) {
   const MappedMesh from = load_mapped(from_path, {.map = {.threads = threads}});
   const MappedMesh to = load_mapped(to_path, {.map = {.threads = threads}});
   const SurfaceRoads roads(to.mesh(), to.topology());
-  const VectorX area = areas_round_vertices(from.mesh());
+  const VectorX area = vertex_areas(from.mesh());
   for (const std::string& kind : kinds) {
     MatchOptions options{.threads = threads};
     options.features = {features(from, kind, threads), features(to, kind, threads), weight};

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "sphparam/mesh/vertex_areas.h"
 #include "sphparam/parallel.h"
 
 // The translation x → (1 − |a|²)(x − a)/|x − a|² − a moves x by −2a + 2(a·x)x to first order, so
@@ -75,13 +76,7 @@ SphereMap mobius_centred(SphereMap map, const VectorX& mass, int max_steps, int 
 }
 
 VectorX vertex_masses(const TriangleMesh& mesh) {
-  VectorX mass = VectorX::Zero(mesh.vertex_count());
-  for (Face f = 0; f < mesh.face_count(); ++f) {
-    const auto t = mesh.triangles.row(f);
-    const Vector3 p = mesh.position(t[0]);
-    const double area = 0.5 * (mesh.position(t[1]) - p).cross(mesh.position(t[2]) - p).norm();
-    for (int k = 0; k < 3; ++k) mass[t[k]] += area / 3;
-  }
+  const VectorX mass = vertex_areas(mesh);
   const double total = mass.sum();
   return total > 0 ? VectorX(mass / total)
                    : VectorX::Constant(mass.size(), 1.0 / double(mass.size()));

@@ -8,6 +8,7 @@
 #include "io/attributes/shading_normals.h"
 #include "option_domain.h"
 #include "sphparam/measure/surface_distance.h"
+#include "sphparam/mesh/vertex_areas.h"
 #include "sphparam/parallel.h"
 
 // Corners of the carried triangles lie on the other surface, so that their own points are near it;
@@ -56,7 +57,7 @@ Similarity placement_on(const SurfaceMap& map, Placement placement, int threads)
   require_area(map.to());
   const Points& here = map.from().mesh().positions;
   const Points there = map.from_on_to(threads).positions;
-  const VectorX weights = areas_round_vertices(map.from().surface());
+  const VectorX weights = vertex_areas(map.from().surface());
   const double area = surface_area(map.from().surface()), other = surface_area(map.to().surface());
   const Vector3 middle = mean(here, weights), other_middle = mean(there, weights);
   result.rotation = nearest_rotation(there.rowwise() - other_middle.transpose(),

@@ -8,6 +8,7 @@
 
 #include "correspondence/surface_area.h"
 #include "correspondence/surface_roads.h"
+#include "sphparam/mesh/vertex_areas.h"
 #include "sphparam/parallel.h"
 
 // Sources spread by farthest points, each with the area nearest to it, stand for the surface's
@@ -26,7 +27,7 @@ size_t at(int i) { return static_cast<size_t>(i); }
 /// Mean distance of each vertex from the surface's points, of √area.
 Eigen::VectorXd mean_distances(const TriangleMesh& mesh, const Topology& topology,
                                const SurfaceRoads& roads) {
-  const Eigen::VectorXd areas = areas_round_vertices(mesh);
+  const Eigen::VectorXd areas = vertex_areas(mesh);
   const int count = std::min(sources, topology.vertex_count());
   std::vector<std::vector<double>> from;
   std::vector<double> least(at(topology.vertex_count()), std::numeric_limits<double>::infinity());
@@ -110,7 +111,7 @@ Extremities find_extremities(const TriangleMesh& mesh, const Topology& topology,
   ends.farness = height(ends.vertices);
   ends.prominence = prominence(ends.vertices);
   ends.distances.resize(count, count);
-  const double unit = std::sqrt(areas_round_vertices(mesh).sum());
+  const double unit = std::sqrt(vertex_areas(mesh).sum());
   parallel_for(count, 1, threads, [&](std::int64_t first, std::int64_t last) {
     for (auto i = first; i < last; ++i) {
       const std::vector<double> from = roads.distances(ends.vertices[static_cast<size_t>(i)]);

@@ -12,6 +12,7 @@
 #include "correspondence/turned_starts.h"
 #include "embedding/frame/nearest_rotation.h"
 #include "sphparam/correspondence/map_alignment.h"
+#include "sphparam/mesh/vertex_areas.h"
 
 // Flat triangles of a coarse level say nothing of a cortex, whose folds they cut across; both maps
 // to the sphere distort little, so between the spheres is a good first place. There, features are
@@ -48,8 +49,8 @@ FeatureTurns turns_by_features(const MappedMesh& from, const MappedMesh& to,
 /// Whether a feature is known on clearly more of one side than of the other. Parts that both leave
 /// out are taken to be the same: where these lie tells the turn, too.
 bool is_one_sided(const MatchFeatures& features, const MappedMesh& from, const MappedMesh& to) {
-  const VectorX from_area = areas_round_vertices(from.surface());
-  const VectorX to_area = areas_round_vertices(to.surface());
+  const VectorX from_area = vertex_areas(from.surface());
+  const VectorX to_area = vertex_areas(to.surface());
   for (Eigen::Index c = 0; c < features.from.cols(); ++c)
     if (std::abs(known_share(features.from.col(c), from_area) -
                  known_share(features.to.col(c), to_area)) > telling_share)
@@ -168,7 +169,7 @@ VectorX agreement_of(const MappedMesh& from, const TargetSurface& target, const 
     for (int k = 0; k < 3; ++k)
       there.row(v) += place.at.barycentric[k] * values.row(target.corner(place, k));
   }
-  const VectorX area = areas_round_vertices(from.surface());
+  const VectorX area = vertex_areas(from.surface());
   VectorX agreement(there.cols());
   for (Eigen::Index c = 0; c < there.cols(); ++c)
     agreement[c] = correlation_of(here.col(c), there.col(c), area);

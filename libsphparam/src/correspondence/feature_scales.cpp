@@ -8,6 +8,7 @@
 #include "elementary.h"
 #include "mesh/flat_face.h"
 #include "mesh/surface_average.h"
+#include "sphparam/mesh/vertex_areas.h"
 
 namespace sphparam {
 namespace {
@@ -71,7 +72,7 @@ void standardise(Functions& values, const VectorX& area) {
 
 FeatureScales::Side FeatureScales::side_of(const TriangleMesh& mesh, const Topology& topology,
                                            const Functions& values) {
-  VectorX area = areas_round_vertices(mesh);
+  VectorX area = vertex_areas(mesh);
   area = area.cwiseMax(least_share * area.mean());
   Functions tame(values.rows(), values.cols());
   for (Eigen::Index c = 0; c < values.cols(); ++c) tame.col(c) = tamed(values.col(c), area);

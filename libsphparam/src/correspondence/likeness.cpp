@@ -9,6 +9,7 @@
 #include "number_text.h"
 #include "sphparam/correspondence/surface_map.h"
 #include "sphparam/measure/measurable.h"
+#include "sphparam/mesh/vertex_areas.h"
 #include "sphparam/parallel.h"
 #include "sphparam/version.h"
 
@@ -47,7 +48,7 @@ class Liker {
         options_(options),
         target_(other),
         near_(near_places(mesh, other, options.threads)),
-        areas_(areas_round_vertices(mesh.surface())),
+        areas_(vertex_areas(mesh.surface())),
         diagonal_(diagonal_of(other.mesh().positions)) {}
 
   Likeness run() {

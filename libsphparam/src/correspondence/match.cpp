@@ -16,6 +16,7 @@
 #include "embedding/energy/energy_domain.h"
 #include "number_text.h"
 #include "option_domain.h"
+#include "sphparam/mesh/vertex_areas.h"
 #include "sphparam/version.h"
 
 // Two starts. The map that `from` has, turned so that the landmarks fit, where they fit all but
@@ -99,8 +100,8 @@ std::optional<std::string> collapse_of(const SurfaceMap& map, int threads) {
 /// A feature that is known of more of one surface than of the other.
 std::optional<std::string> one_sided(const MatchFeatures& features, const MappedMesh& from,
                                      const MappedMesh& to) {
-  const VectorX from_area = areas_round_vertices(from.surface());
-  const VectorX to_area = areas_round_vertices(to.surface());
+  const VectorX from_area = vertex_areas(from.surface());
+  const VectorX to_area = vertex_areas(to.surface());
   for (Eigen::Index c = 0; c < features.from.cols(); ++c) {
     const double here = known_share(features.from.col(c), from_area);
     const double there = known_share(features.to.col(c), to_area);

@@ -4,6 +4,7 @@
 
 #include "mesh/flat_face.h"
 #include "sphparam/errors.h"
+#include "sphparam/mesh/vertex_areas.h"
 
 namespace sphparam {
 
@@ -13,17 +14,8 @@ double surface_area(const TriangleMesh& mesh) {
   return area;
 }
 
-VectorX areas_round_vertices(const TriangleMesh& mesh) {
-  VectorX areas = VectorX::Zero(mesh.vertex_count());
-  for (Face f = 0; f < mesh.face_count(); ++f) {
-    const double third = face_area(mesh, f) / 3;
-    for (int k = 0; k < 3; ++k) areas[mesh.triangles(f, k)] += third;
-  }
-  return areas;
-}
-
 Points stance_of(const TriangleMesh& mesh) {
-  const VectorX share = areas_round_vertices(mesh);
+  const VectorX share = vertex_areas(mesh);
   const double area = share.sum();
   const Eigen::RowVector3d centre = share.transpose() * mesh.positions / area;
   return (mesh.positions.rowwise() - centre) / std::sqrt(area);

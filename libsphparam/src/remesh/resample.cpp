@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "io/attributes/weightiest_label.h"
-#include "mesh/flat_face.h"
 #include "remesh/flat_places.h"
 #include "remesh/float32_places.h"
 #include "sphparam/parallel.h"
@@ -151,15 +150,6 @@ Gather barycentric_weights(const MappedMesh& current, const Points& directions, 
     result.starts.push_back(std::ssize(result.vertices));
   }
   return result;
-}
-
-VectorX vertex_areas(const TriangleMesh& mesh) {
-  VectorX areas = VectorX::Zero(mesh.vertex_count());
-  for (Face f = 0; f < mesh.face_count(); ++f) {
-    const double third = face_area(mesh, f) / 3;
-    for (int k = 0; k < 3; ++k) areas[mesh.triangles(f, k)] += third;
-  }
-  return areas;
 }
 
 Gather adap_bary_area_weights(const MappedMesh& current, const Topology& topology,

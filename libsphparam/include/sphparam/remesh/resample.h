@@ -6,6 +6,7 @@
 #include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/vertex_data.h"
 #include "sphparam/mesh/topology.h"
+#include "sphparam/mesh/vertex_areas.h"
 #include "sphparam/sphere/sphere_map.h"
 
 namespace sphparam {
@@ -34,9 +35,6 @@ struct Gather {
 /// threads. Throws: std::invalid_argument for a direction that is zero or not finite. Cost: about 2
 /// µs a direction.
 Gather barycentric_weights(const MappedMesh& current, const Points& directions, int threads = 0);
-
-/// The area of each vertex: a third of that of the triangles about it.
-VectorX vertex_areas(const TriangleMesh& mesh);
 
 /// ADAP_BARY_AREA, for data: nothing of the current sphere is left out where the new one is
 /// coarser, and integrals over the surface are nearly kept. Each new vertex takes from the current
