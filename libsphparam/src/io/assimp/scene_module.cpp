@@ -133,21 +133,18 @@ long drop_animations(aiScene& scene) {
   return dropped;
 }
 
-void tell(SphparamSceneSink sink, void* context, std::string_view text) {
-  sink(context, text.data(), text.size());
+int complain(SphparamSceneSink error, std::string_view why) {
+  error.take(error.context, why.data(), why.size());
+  return 1;
 }
 
 int to_glb(const char* kind, const char* bytes, size_t size, SphparamSceneSink glb,
-           void* glb_context, SphparamSceneCounts* counts, SphparamSceneSink error,
-           void* error_context) try {
+           SphparamSceneCounts* counts, SphparamSceneSink error) try {
   Assimp::Importer importer;
   // A scene without meshes is not to show its nodes in their stead.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   const aiScene* const read = importer.ReadFileFromMemory(bytes, size, steps, kind);
-  if (!read || !read->mRootNode) {
-    tell(error, error_context, importer.GetErrorString());
-    return 1;
-  }
+  if (!read || !read->mRootNode) return complain(error, importer.GetErrorString());
   const std::unique_ptr<aiScene> scene(importer.GetOrphanedScene());
   turn_up(*scene);
   name_pictures(*scene);
@@ -158,18 +155,15 @@ int to_glb(const char* kind, const char* bytes, size_t size, SphparamSceneSink g
   const aiExportDataBlob* const blob = exporter.ExportToBlob(scene.get(), "glb2");
   if (!blob) {
     const std::string why = exporter.GetErrorString();  // not always there
-    tell(error, error_context,
-         "assimp cannot make glTF of the scene" + (why.empty() ? "" : ": " + why));
-    return 1;
+    return complain(error,
+                    "assimp cannot make glTF of the scene" + (why.empty() ? "" : ": " + why));
   }
-  glb(glb_context, static_cast<const char*>(blob->data), blob->size);
+  glb.take(glb.context, static_cast<const char*>(blob->data), blob->size);
   return 0;
 } catch (const std::bad_alloc&) {
-  tell(error, error_context, "it asks for more memory than it may take");
-  return 1;
+  return complain(error, "it asks for more memory than it may take");
 } catch (const std::exception& problem) {
-  tell(error, error_context, problem.what());
-  return 1;
+  return complain(error, problem.what());
 }
 
 constexpr SphparamSceneTable table = {sphparam_scene_table_version, to_glb};

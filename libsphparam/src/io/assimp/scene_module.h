@@ -9,7 +9,10 @@
 extern "C" {
 
 /// Receives bytes; `context` is the caller's own.
-typedef void (*SphparamSceneSink)(void* context, const char* bytes, size_t size);
+struct SphparamSceneSink {
+  void (*take)(void* context, const char* bytes, size_t size);
+  void* context;
+};
 
 /// What of a scene is not in its GLB.
 struct SphparamSceneCounts {
@@ -23,13 +26,12 @@ struct SphparamSceneTable {
   /// Meshes with a skin are posed as their joints stand at rest, whatever is animated.
   /// Returns 0, or 1 after telling `error` why.
   int (*to_glb)(const char* kind, const char* bytes, size_t size, SphparamSceneSink glb,
-                void* glb_context, SphparamSceneCounts* counts, SphparamSceneSink error,
-                void* error_context);
+                SphparamSceneCounts* counts, SphparamSceneSink error);
 };
 
 /// The module's one exported name.
 typedef const SphparamSceneTable* (*SphparamSceneTableFunction)();
 }
 
-constexpr int sphparam_scene_table_version = 3;
+constexpr int sphparam_scene_table_version = 4;
 constexpr char sphparam_scene_table_name[] = "sphparam_scene_table";

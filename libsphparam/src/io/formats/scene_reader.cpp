@@ -22,8 +22,11 @@ const SphparamSceneTable& scene_table() {
   return *table;
 }
 
-void append(void* context, const char* bytes, size_t size) {
-  static_cast<std::string*>(context)->append(bytes, size);
+SphparamSceneSink into(std::string& all) {
+  return {[](void* context, const char* bytes, size_t size) {
+            static_cast<std::string*>(context)->append(bytes, size);
+          },
+          &all};
 }
 
 /// What assimp complains of.
@@ -52,8 +55,8 @@ Scene scene_of(const char* kind, std::string_view bytes) {
       [&] {
         std::string glb, complaint(1, '!');
         SphparamSceneCounts counts = {};
-        const int code = scenes.to_glb(kind, bytes.data(), bytes.size(), append, &glb, &counts,
-                                       append, &complaint);
+        const int code =
+            scenes.to_glb(kind, bytes.data(), bytes.size(), into(glb), &counts, into(complaint));
         if (code != 0) return complaint;
         return std::to_string(counts.skins) + ' ' + std::to_string(counts.animations) + ' ' + glb;
       },
