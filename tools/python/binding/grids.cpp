@@ -66,24 +66,43 @@ bool is_of_grid(const std::string& word, const GridRequest& request, const char*
   return true;
 }
 
-Mapped remesh_on(const Mapped& mapped, const py::object& grid, const std::string& sample,
-                 const std::vector<std::string>& transfer, bool adaptive, const std::string& uv,
-                 int threads, const py::object& progress) {
-  const GridRequest request = request_of(grid);
-  const SampleMode mode = chosen(sample,
-                                 by_name({SampleMode::Point, SampleMode::Cell,
-                                          SampleMode::Barycentric, SampleMode::AdapBaryArea}),
-                                 "sample");
-  const bool own_texture = is_of_grid(uv, request, "uv");
+struct RemeshRequest {
+  RemeshOptions options;
+  bool adaptive = false;
+  std::string texture = "mesh";  // whose coordinates: "mesh" or "grid"
+};
+
+RemeshRequest remesh_request_of(const py::dict& values) {
+  RemeshRequest request;
+  RemeshOptions& options = request.options;
+  Settings settings(values);
+  settings
+      .take("sample", options.sample,
+            by_name({SampleMode::Point, SampleMode::Cell, SampleMode::Barycentric,
+                     SampleMode::AdapBaryArea}))
+      .take("transfer", options.transfer)
+      .take("adaptive", request.adaptive)
+      .take("uv", request.texture)
+      .take("threads", options.threads);
+  settings.require_all_known();
+  return request;
+}
+
+Mapped remesh_on(const Mapped& mapped, const py::object& grid, const py::dict& values,
+                 const py::object& progress) {
+  const GridRequest onto = request_of(grid);
+  const RemeshRequest wanted = remesh_request_of(values);
+  const bool own_texture = is_of_grid(wanted.texture, onto, "uv");
   return call(progress, [=, source = mapped.mesh()](const Progress& report) mutable {
-    SphereGrid made = grid_of(request, threads);
-    if (adaptive) {
+    RemeshOptions options = wanted.options;
+    options.progress = report;
+    const int threads = options.threads;
+    SphereGrid made = grid_of(onto, threads);
+    if (wanted.adaptive) {
       source = adapt_map(source, made.directions.rows(), {.threads = threads, .progress = report})
                    .mapped;
     }
-    Remeshed found =
-        remesh(source, std::move(made),
-               {.sample = mode, .transfer = transfer, .threads = threads, .progress = report});
+    Remeshed found = remesh(source, std::move(made), options);
     if (own_texture)
       found = with_grid_texture(found, texture_layout(found.spec().value(), usual_texels), threads);
     return Mapped(found);
@@ -128,14 +147,6 @@ std::unique_ptr<Fitted> fit(const Mapped& mapped, const py::object& grid, const 
   });
 }
 
-std::optional<ImageDepth> depth_named(const std::string& word) {
-  if (word.empty()) return std::nullopt;
-  return chosen<ImageDepth>(
-      word,
-      {{"half", ImageDepth::Half}, {"float", ImageDepth::Float}, {"uint16", ImageDepth::Uint16}},
-      "depth");
-}
-
 py::dict as_dict(const WrittenDisplacement& written) {
   py::dict dict;
   dict["least"] = written.figures.least;
@@ -170,22 +181,42 @@ Mapped textured_control(const Fitted& fitted, int width, int height, int threads
   });
 }
 
-py::dict displace(const Fitted& fitted, const FilePath& path, const FilePath& rebuilt, int width,
-                  int height, const std::string& layout, const std::string& depth, int threads,
+/// What is written besides the image, and how.
+struct DisplaceRequest {
+  DisplacementFiles files;
+  DisplacementOptions options;
+};
+
+DisplaceRequest displace_request_of(const FilePath& path, const py::dict& values) {
+  DisplaceRequest request{.files = {.image = path}};
+  DisplacementOptions& options = request.options;
+  Settings settings(values);
+  settings.take_path("rebuilt", request.files.rebuilt)
+      .take("depth", request.files.depth,
+            {{"half", ImageDepth::Half},
+             {"float", ImageDepth::Float},
+             {"uint16", ImageDepth::Uint16}})
+      .take("layout", options.layout,
+            {{"equirectangular", DisplacementLayout::Equirectangular},
+             {"grid", DisplacementLayout::Grid}})
+      .take("width", options.width)
+      .take("height", options.height)
+      .take("threads", options.threads);
+  settings.require_all_known();
+  return request;
+}
+
+py::dict displace(const Fitted& fitted, const FilePath& path, const py::dict& values,
                   const py::object& progress) {
-  const DisplacementFiles files{path, depth_named(depth), rebuilt};
-  const auto lies =
-      chosen<DisplacementLayout>(layout,
-                                 {{"equirectangular", DisplacementLayout::Equirectangular},
-                                  {"grid", DisplacementLayout::Grid}},
-                                 "layout");
-  if (lies == DisplacementLayout::Grid) require_layout(fitted);
+  const DisplaceRequest wanted = displace_request_of(path, values);
+  if (wanted.options.layout == DisplacementLayout::Grid) require_layout(fitted);
   const auto held = std::make_shared<const Fitted>(fitted);
   return as_dict(writing_call(progress, [=](const Progress& report) {
+    DisplacementOptions options = wanted.options;
+    options.progress = report;
     PendingFiles pending;
-    const WrittenDisplacement written = add_displacement(
-        pending, files, held->source, held->control, held->fit,
-        {.width = width, .height = height, .layout = lies, .threads = threads, .progress = report});
+    const WrittenDisplacement written =
+        add_displacement(pending, wanted.files, held->source, held->control, held->fit, options);
     pending.publish();
     return written;
   }));

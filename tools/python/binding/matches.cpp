@@ -105,16 +105,35 @@ Placement placement_of(const std::string& word) {
                         "\"");
 }
 
+struct MorphRequest {
+  Placement placement = Placement::Scaled;
+  ExportOptions options;
+};
+
+MorphRequest morph_request_of(const py::dict& values) {
+  MorphRequest request;
+  ExportOptions& options = request.options;
+  std::string place = "scaled", up, front;
+  Settings settings(values);
+  settings.take("place", place)
+      .take("up", up)
+      .take("front", front)
+      .take("image_size", options.look.image_width)
+      .take("threads", options.threads);
+  settings.require_all_known();
+  request.placement = placement_of(place);
+  options.up = up_of(up, front);
+  return request;
+}
+
 /// Writes a .glb; returns warnings.
 py::list write_morph(const Mapped& from, const Mapped& to, const FilePath& path,
-                     const std::string& place, const std::string& up, const std::string& front,
-                     int image_size, int threads, const py::object& progress) {
-  const Placement placement = placement_of(place);
-  ExportOptions options{.up = up_of(up, front), .threads = threads};
-  options.look.image_width = image_size;
+                     const py::dict& values, const py::object& progress) {
+  MorphRequest wanted = morph_request_of(values);
   return as_texts(writing_call(progress, [=, from = from, to = to](const Progress& report) mutable {
-    options.progress = report;
-    const Asset asset = make_morph(SurfaceMap(from.mesh(), to.mesh()), placement, options);
+    wanted.options.progress = report;
+    const Asset asset =
+        make_morph(SurfaceMap(from.mesh(), to.mesh()), wanted.placement, wanted.options);
     write_asset(path, asset);
     return asset.warnings;
   }));

@@ -58,11 +58,15 @@ class MapGrids(MapFacts):
         """
         from ._sphere_map import SphereMap
 
-        names, mode, layout = self._transferred(transfer), _arrays.text(sample, "sample"), _arrays.text(uv, "uv")
+        options = {
+            "transfer": self._transferred(transfer),
+            "sample": _arrays.text(sample, "sample"),
+            "uv": _arrays.text(uv, "uv"),
+            "adaptive": _arrays.flag(adaptive, "adaptive"),
+            "threads": _arrays.threads(threads),
+        }
         with told(progress) as report:
-            made = _core.remesh(
-                self._mapped, grid_of(grid), mode, names, _arrays.flag(adaptive, "adaptive"), layout, _arrays.threads(threads), report
-            )
+            made = _core.remesh(self._mapped, grid_of(grid), options, report)
         return SphereMap._of(made)
 
     def levels(self, count: int, *, threads: int = 0, progress: Progress = None) -> List[SphereMap]:

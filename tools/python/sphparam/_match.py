@@ -108,12 +108,15 @@ class SurfaceMap:
         name, size = path_of(path), _arrays.whole(image_size, "image_size", 16, 16384)
         if not name.lower().endswith(".glb"):
             raise ValueError(f"path: a morph ends in .glb, not {name!r}")
-        source, target = self.source._mapped, self.target._mapped
+        options = {
+            "place": _arrays.text(place, "place"),
+            "up": as_direction(up, "up"),
+            "front": as_direction(front, "front"),
+            "image_size": size,
+            "threads": _arrays.threads(threads),
+        }
         with told(progress) as report:
-            warned = _core.write_morph(
-                source, target, name, _arrays.text(place, "place"), as_direction(up, "up"), as_direction(front, "front"), size,
-                _arrays.threads(threads), report,  # fmt: skip
-            )
+            warned = _core.write_morph(self.source._mapped, self.target._mapped, name, options, report)
         tell(self.source._not_exported(name, False))
         tell(warned)
 

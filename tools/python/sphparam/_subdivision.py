@@ -109,11 +109,17 @@ class SubdivisionFit:
             distance from the mesh.
         """
         width, height = _arrays.width_and_height(size)
-        other = path_of(rebuilt) if rebuilt else ""
-        wanted = _arrays.text(layout, "layout"), _arrays.text(depth, "depth")
-        count = _arrays.threads(threads)
+        options = {
+            "width": width,
+            "height": height,
+            "rebuilt": path_of(rebuilt) if rebuilt else "",
+            "layout": _arrays.text(layout, "layout"),
+            "threads": _arrays.threads(threads),
+        }
+        if _arrays.text(depth, "depth"):
+            options["depth"] = depth
         with told(progress) as report:
-            found = _core.displace(self._fitted, path_of(path), other, width, height, *wanted, count, report)
+            found = _core.displace(self._fitted, path_of(path), options, report)
         return Displacement(**found)
 
     def __repr__(self) -> str:
