@@ -2,8 +2,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -17,6 +15,7 @@
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/sphere/sphere_locator.h"
 #include "sphparam/sphere/spherical_coordinates.h"
+#include "support/bytes_of.h"
 #include "support/folder.h"
 #include "support/glb_json.h"
 #include "support/joined.h"
@@ -29,11 +28,6 @@ using namespace sphparam::tests;
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string bytes_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 MeshSource source_of(TriangleMesh mesh, const std::string& path = "shape.obj") {
   MeshSource source;

@@ -2,8 +2,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <string>
 #include <vector>
@@ -14,6 +12,7 @@
 #include "scenes.h"
 #include "sphparam/bake/bake.h"
 #include "sphparam/io/fillers.h"
+#include "support/bytes_of.h"
 #include "support/folder.h"
 #include "support/test_meshes.h"
 
@@ -23,11 +22,6 @@ using namespace sphparam::tests;
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string bytes_of(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// An egg on the sphere of its directions, moved aside.
 MappedMesh egg(int level, double aside = 0) {

@@ -2,7 +2,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <numbers>
 
@@ -16,6 +15,7 @@
 #include "sphparam/io/up_axis.h"
 #include "sphparam/sphere/radial_directions.h"
 #include "sphparam/sphere/spherical_coordinates.h"
+#include "support/bytes_of.h"
 #include "support/folder.h"
 #include "support/test_meshes.h"
 
@@ -90,11 +90,6 @@ Baked baked(const MappedMesh& mesh, const std::string& field, BakeSettings setti
 
 Vector3 direction_of(int row, int column, int width) {
   return to_cartesian({(column + 0.5) / width * 2 * pi, (row + 0.5) / (width / 2.0) * pi});
-}
-
-std::string text_of(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 /// What is between <NAME> and </NAME>, at its first place.
@@ -372,14 +367,14 @@ TEST_CASE("sidecars: coordinates, scale, offset and unit beside each image, or n
   CHECK(report.coordinate_system == "Vesta (2015) - Sphere / Ocentric");
   CHECK(report.warnings.empty());
   CHECK(report.images[0].sidecar == folder / "r.tif.aux.xml");
-  const std::string radius = text_of(folder / "r.tif.aux.xml");
+  const std::string radius = bytes_of(folder / "r.tif.aux.xml");
   CHECK(element(radius, "GeoTransform") == "-180, 5.625, 0, 90, 0, -5.625");
   CHECK(element(radius, "UnitType") == "km");
   const auto [least, greatest] = report.images[0].range.value();
   CHECK(std::stod(element(radius, "Offset")) == least);
   CHECK(std::stod(element(radius, "Scale")) == (greatest - least) / 65535);
   CHECK_THAT(element(radius, "SRS"), Contains("ID[&quot;IAU&quot;,200000400,2015]"));
-  const std::string normal = text_of(folder / "n.png.aux.xml");
+  const std::string normal = bytes_of(folder / "n.png.aux.xml");
   CHECK(std::stod(element(normal, "Offset")) == -1);
   CHECK_THAT(normal, Contains("<PAMRasterBand band=\"3\">"));
 }
@@ -412,13 +407,13 @@ TEST_CASE("sidecars: where kept holes are, floats for geographic programs are no
     CHECK((in_hole ? std::isnan(tif.pixels[i]) : tif.pixels[i] == exr.pixels[i]));
   }
   CHECK(holes == 86);
-  const std::string bands = text_of(folder / "r.tif.aux.xml");
+  const std::string bands = bytes_of(folder / "r.tif.aux.xml");
   const std::string alpha = bands.substr(bands.find("band=\"2\""));
   CHECK(element(bands, "NoDataValue") == "nan");
   CHECK_THAT(alpha, !Contains("NoDataValue"));
   settings.depth.reset();
   values("i.tif");
-  CHECK_THAT(text_of(folder / "i.tif.aux.xml"), !Contains("NoDataValue"));
+  CHECK_THAT(bytes_of(folder / "i.tif.aux.xml"), !Contains("NoDataValue"));
   settings.depth = SampleType::Float;
   settings.fields.body.reset();
   CHECK(values("plain.tif").pixels == exr.pixels);
@@ -431,7 +426,7 @@ TEST_CASE("sidecars: lonlat has two bands in degrees, and one of nothing") {
   settings.convention = Convention::Gis;
   settings.fields.body = body_of("Vesta");
   bake(mapped_radially(star_shaped(0, 3)), {{"lonlat", folder / "l.tif"}}, settings);
-  const std::string bands = text_of(folder / "l.tif.aux.xml");
+  const std::string bands = bytes_of(folder / "l.tif.aux.xml");
   const auto band = [&](int i) { return bands.substr(bands.find("band=\"" + std::to_string(i))); };
   CHECK(element(band(1), "Description") == "longitude");
   CHECK(element(band(2), "Description") == "latitude");
@@ -460,10 +455,10 @@ TEST_CASE("sidecars: lengths and curvatures have units, what covers kept holes i
         {"curvature", folder / "c.tif"},
         {"curvature:gauss", folder / "g.tif"}},
        settings);
-  CHECK(element(text_of(folder / "t.tif.aux.xml"), "UnitType") == "km");
-  CHECK(element(text_of(folder / "c.tif.aux.xml"), "UnitType") == "1/km");
-  CHECK(element(text_of(folder / "g.tif.aux.xml"), "UnitType") == "1/km^2");
-  const std::string radius = text_of(folder / "r.tif.aux.xml");
+  CHECK(element(bytes_of(folder / "t.tif.aux.xml"), "UnitType") == "km");
+  CHECK(element(bytes_of(folder / "c.tif.aux.xml"), "UnitType") == "1/km");
+  CHECK(element(bytes_of(folder / "g.tif.aux.xml"), "UnitType") == "1/km^2");
+  const std::string radius = bytes_of(folder / "r.tif.aux.xml");
   CHECK(element(radius, "Description") == "radius");
   const std::string cover = radius.substr(radius.find("band=\"2\""));
   CHECK(element(cover, "Description") == "surface");
@@ -471,7 +466,7 @@ TEST_CASE("sidecars: lengths and curvatures have units, what covers kept holes i
   CHECK_THAT(cover, !Contains("UnitType") && !Contains("Scale"));
   settings.fields.body = body_of("Vesta", 0.3);
   bake(holed, {{"curvature:gauss", folder / "g.tif"}}, settings);
-  CHECK(element(text_of(folder / "g.tif.aux.xml"), "UnitType") == "1/(0.3 m)^2");
+  CHECK(element(bytes_of(folder / "g.tif.aux.xml"), "UnitType") == "1/(0.3 m)^2");
 }
 
 TEST_CASE("sidecars: longitudes are called planetocentric only where they are") {
@@ -485,7 +480,7 @@ TEST_CASE("sidecars: longitudes are called planetocentric only where they are") 
   mesh.positions *= 17;
   const auto system = [&](const MappedMesh& mapped) {
     const BakeReport report = bake(mapped, {{"radius", folder / "r.tif"}}, settings);
-    const std::string srs = element(text_of(folder / "r.tif.aux.xml"), "SRS");
+    const std::string srs = element(bytes_of(folder / "r.tif.aux.xml"), "SRS");
     CHECK((srs.find("200043300") != std::string::npos) ==
           (report.coordinate_system == "Eros (2015) - Sphere / Ocentric"));
     return report.coordinate_system;
@@ -498,7 +493,7 @@ TEST_CASE("sidecars: longitudes are called planetocentric only where they are") 
         "sphparam map of Eros");
   settings.fields.body->positive_west = true;
   CHECK(system(mapped_radially(mesh)) == "Eros (2015) - Sphere / Ocentric, positive west");
-  CHECK(element(text_of(folder / "r.tif.aux.xml"), "GeoTransform") ==
+  CHECK(element(bytes_of(folder / "r.tif.aux.xml"), "GeoTransform") ==
         "180, -5.625, 0, 90, 0, -5.625");
 }
 
@@ -629,7 +624,7 @@ TEST_CASE("sidecars: a map that is radial about another centre has not the body'
     REQUIRE(report.warnings.size() == 1);
     CHECK_THAT(report.warnings.front(),
                Contains("radial about (100, -50, 20)") && Contains("not about the body's centre"));
-    CHECK(text_of(folder / "l.tif.aux.xml").find("200043300") == std::string::npos);
+    CHECK(bytes_of(folder / "l.tif.aux.xml").find("200043300") == std::string::npos);
   }
 }
 
@@ -660,7 +655,7 @@ TEST_CASE("sidecars: what is linear in (u, v) says by how much its longitudes ar
   const double told = std::stod(name.substr(at + 7));
   CHECK(told >= 0.99 * off);
   CHECK(told < 3 * off);
-  CHECK(text_of(path + ".aux.xml").find("200043300") == std::string::npos);
+  CHECK(bytes_of(path + ".aux.xml").find("200043300") == std::string::npos);
   settings.interpolation = Interpolation::Sphere;
   CHECK(bake(mapped, {{"radius", path}}, settings).coordinate_system ==
         "Eros (2015) - Sphere / Ocentric");

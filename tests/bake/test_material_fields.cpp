@@ -11,6 +11,7 @@
 #include "scenes.h"
 #include "sphparam/chart/tangent_frame.h"
 #include "srgb_curves.h"
+#include "support/cube.h"
 #include "support/test_meshes.h"
 #include "texture/read_textures.h"
 #include "texture/texture_pyramid.h"
@@ -49,17 +50,6 @@ struct Cube {
       lay(f);
     }
     file.set_face_property(std::move(material));
-  }
-
-  static TriangleMesh cube() {
-    TriangleMesh mesh;
-    mesh.positions.resize(8, 3);
-    for (int v = 0; v < 8; ++v)
-      mesh.positions.row(v) << (v & 1 ? 1 : -1), (v & 2 ? 1 : -1), (v & 4 ? 1 : -1);
-    mesh.triangles.resize(12, 3);
-    mesh.triangles << 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 4,
-        6, 0, 6, 2, 1, 3, 7, 1, 7, 5;
-    return mesh;
   }
 
   void lay(Face f) {

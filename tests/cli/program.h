@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sphparam/mesh/triangle_mesh.h"
+#include "support/bytes_of.h"
 #include "support/folder.h"
 
 /// Running the `sphparam` program as its users do.
@@ -46,8 +47,6 @@ Ended sphparam_program(const std::vector<std::string>& arguments,
 /// how many there were; −1: one of them failed.
 int type_advice(const std::string& message, const std::string& folder);
 
-/// Throws: std::runtime_error where there is no such file.
-std::string bytes_of(const std::string& path);
 void write_bytes(const std::string& path, const std::string& bytes);
 
 /// The mesh as the text of an OBJ file, with all digits.

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
@@ -8,6 +7,7 @@
 #include "sphparam/mesh/mesh_defects.h"
 #include "support/joined.h"
 #include "support/test_meshes.h"
+#include "support/torus.h"
 
 namespace sphparam::tests {
 
@@ -15,25 +15,6 @@ namespace {
 
 using Catch::Contains;
 using Json = nlohmann::json;
-
-/// A closed torus: `around` × `across` vertices, twice as many triangles.
-TriangleMesh torus(int around, int across) {
-  TriangleMesh mesh;
-  mesh.positions.resize(around * across, 3);
-  mesh.triangles.resize(2 * around * across, 3);
-  const double turn = 2 * 3.14159265358979323846;
-  const auto id = [&](int i, int j) { return (i % around) * across + j % across; };
-  for (int i = 0; i < around; ++i) {
-    for (int j = 0; j < across; ++j) {
-      const double u = turn * i / around, v = turn * j / across, r = 2 + std::cos(v);
-      mesh.positions.row(id(i, j)) << r * std::cos(u), r * std::sin(u), std::sin(v);
-      const int a = id(i, j), b = id(i + 1, j), c = id(i + 1, j + 1), d = id(i, j + 1);
-      mesh.triangles.row(2 * a) << a, b, c;
-      mesh.triangles.row(2 * a + 1) << a, c, d;
-    }
-  }
-  return mesh;
-}
 
 }  // namespace
 
@@ -88,10 +69,10 @@ TEST_CASE("info: an open mesh has no volume") {
 }
 
 TEST_CASE("info: a torus ends with 4 and its genus is named") {
-  const Ended ended = sphparam_program({"info", "-"}, obj_text(torus(12, 8)));
+  const Ended ended = sphparam_program({"info", "-"}, obj_text(torus(12, 8, 2, 1)));
   CHECK(ended.code == 4);
   CHECK_THAT(ended.out, Contains("genus 1"));
-  CHECK(sphparam_program({"map", "-", "-o", "-"}, obj_text(torus(12, 8))).code == 4);
+  CHECK(sphparam_program({"map", "-", "-o", "-"}, obj_text(torus(12, 8, 2, 1))).code == 4);
 }
 
 TEST_CASE("info: lists every defect of a bad mesh with ids") {

@@ -6,6 +6,7 @@
 #include "program.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/mesh/mesh_defects.h"
+#include "support/holed.h"
 #include "support/joined.h"
 #include "support/shaken.h"
 #include "support/test_meshes.h"
@@ -18,12 +19,6 @@ namespace {
 
 using Catch::Contains;
 using Json = nlohmann::json;
-
-TriangleMesh with_a_hole() {
-  TriangleMesh mesh = icosphere(2);
-  mesh.triangles.conservativeResize(mesh.face_count() - 1, 3);
-  return mesh;
-}
 
 TriangleMesh scaled(TriangleMesh mesh, double factor) {
   mesh.positions *= factor;

@@ -6,6 +6,7 @@
 
 #include "image/image_codec.h"
 #include "program.h"
+#include "support/holed.h"
 #include "support/test_meshes.h"
 #include "support/volume_surface.h"
 
@@ -15,12 +16,6 @@ namespace {
 
 using Catch::Contains;
 using namespace sphparam;
-
-TriangleMesh with_a_hole() {
-  TriangleMesh mesh = icosphere(2);
-  mesh.triangles.conservativeResize(mesh.face_count() - 1, 3);
-  return mesh;
-}
 
 using Words = std::vector<std::string>;
 

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "program.h"
+#include "support/holed.h"
 #include "support/test_meshes.h"
 
 namespace sphparam::tests {
@@ -15,12 +16,6 @@ namespace {
 
 using Catch::Contains;
 using Json = nlohmann::json;
-
-TriangleMesh with_a_hole() {
-  TriangleMesh mesh = icosphere(2);
-  mesh.triangles.conservativeResize(mesh.face_count() - 1, 3);
-  return mesh;
-}
 
 /// A folder in the test's own with two meshes that map, one of them after repair.
 std::string good_scans(const Folder& folder) {

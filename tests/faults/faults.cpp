@@ -26,6 +26,7 @@
 #include <vector>
 
 #include "faults/errands.h"
+#include "support/bytes_of.h"
 #include "support/process.h"
 
 namespace {
@@ -35,11 +36,6 @@ namespace fs = std::filesystem;
 
 constexpr double most_seconds = 60;  // then a run counts as hanging
 constexpr int killed = 128 + SIGKILL, interrupted = 130;
-
-std::string bytes_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
 
 void write_off(const fs::path& path, const sphparam::TriangleMesh& mesh) {
   std::ofstream file(path);

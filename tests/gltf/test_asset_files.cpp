@@ -1,6 +1,5 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <tuple>
 #include <utility>
@@ -8,6 +7,7 @@
 #include "sphparam/gltf/export.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/safe_file.h"
+#include "support/bytes_of.h"
 #include "support/folder.h"
 #include "support/test_meshes.h"
 
@@ -16,11 +16,6 @@ namespace sphparam::tests {
 namespace {
 
 const ExportOptions small{.look = {.image_width = 64}};
-
-std::string bytes_of(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 MappedMesh ball(const std::string& name) {
   MeshFile file;

@@ -15,6 +15,7 @@
 #include "sphparam/gltf/export.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/safe_file.h"
+#include "support/bytes_of.h"
 #include "support/folder.h"
 #include "support/glb_json.h"
 #include "support/test_meshes.h"
@@ -32,11 +33,6 @@ MappedMesh mapped_egg(int level) {
   SphereMap map{file.mesh.positions};
   file.mesh.positions.col(2) *= 1.3;
   return MappedMesh({.file = std::move(file), .map = std::move(map), .name = "egg.obj"});
-}
-
-std::string bytes_of(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 const ExportOptions small{.look = {.image_width = 64}};

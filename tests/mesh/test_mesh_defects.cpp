@@ -3,7 +3,9 @@
 #include <limits>
 
 #include "sphparam/mesh/mesh_defects.h"
+#include "support/joined.h"
 #include "support/test_meshes.h"
+#include "support/torus.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;
@@ -15,34 +17,6 @@ const MeshDefect* find(const MeshInspection& inspection, DefectKind kind) {
     if (defect.kind == kind) return &defect;
   }
   return nullptr;
-}
-
-TriangleMesh joined(const TriangleMesh& a, const TriangleMesh& b) {
-  TriangleMesh mesh;
-  mesh.positions.resize(a.vertex_count() + b.vertex_count(), 3);
-  mesh.positions << a.positions, b.positions;
-  mesh.triangles.resize(a.face_count() + b.face_count(), 3);
-  mesh.triangles << a.triangles,
-      (b.triangles.array() + static_cast<int>(a.vertex_count())).matrix();
-  return mesh;
-}
-
-/// A grid of quads, periodic both ways.
-TriangleMesh torus(int n) {
-  TriangleMesh mesh;
-  mesh.positions.resize(n * n, 3);
-  mesh.triangles.resize(2 * n * n, 3);
-  const auto at = [n](int i, int j) { return (i % n) * n + j % n; };
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < n; ++j) {
-      const double a = 6.283185307179586 * i / n, b = 6.283185307179586 * j / n;
-      mesh.positions.row(at(i, j)) << (3 + std::cos(b)) * std::cos(a),
-          (3 + std::cos(b)) * std::sin(a), std::sin(b);
-      mesh.triangles.row(2 * at(i, j)) << at(i, j), at(i + 1, j), at(i + 1, j + 1);
-      mesh.triangles.row(2 * at(i, j) + 1) << at(i, j), at(i + 1, j + 1), at(i, j + 1);
-    }
-  }
-  return mesh;
 }
 
 }  // namespace
@@ -60,17 +34,17 @@ TEST_CASE("mesh_defects: a sphere has none, genus 0, and the right size") {
 }
 
 TEST_CASE("mesh_defects: a torus has genus 1 and nothing else wrong") {
-  const MeshInspection inspection = inspect_mesh(torus(8));
+  const MeshInspection inspection = inspect_mesh(torus(8, 8, 3, 1));
   REQUIRE(inspection.defects.size() == 1);
   CHECK(inspection.defects[0].kind == DefectKind::WrongGenus);
   CHECK(inspection.genus == 1);
-  CHECK_THROWS_WITH(require_sphere(torus(8)),
+  CHECK_THROWS_WITH(require_sphere(torus(8, 8, 3, 1)),
                     "the mesh is not a closed genus-0 manifold; genus 1 (Euler characteristic 0): "
                     "only surfaces without handles map to the sphere");
 }
 
 TEST_CASE("mesh_defects: a torus beside two spheres has characteristic 4 and is still refused") {
-  TriangleMesh mesh = joined(joined(torus(8), octahedron()), tetrahedron());
+  TriangleMesh mesh = joined(joined(torus(8, 8, 3, 1), octahedron()), tetrahedron());
   CHECK_THROWS_AS(require_sphere(mesh), MeshError);
   const MeshInspection inspection = inspect_mesh(mesh);
   REQUIRE(find(inspection, DefectKind::SeveralComponents));

@@ -11,6 +11,7 @@
 
 #include "sphparam/mesh/mesh_repair.h"
 #include "sphparam/mesh/topology.h"
+#include "support/joined.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -32,16 +33,6 @@ const RepairAction* find(const RepairedMesh& repaired, RepairKind kind) {
 long count(const RepairedMesh& repaired, RepairKind kind) {
   const RepairAction* action = find(repaired, kind);
   return action ? action->count : 0;
-}
-
-TriangleMesh joined(const TriangleMesh& a, const TriangleMesh& b) {
-  TriangleMesh mesh;
-  mesh.positions.resize(a.vertex_count() + b.vertex_count(), 3);
-  mesh.positions << a.positions, b.positions;
-  mesh.triangles.resize(a.face_count() + b.face_count(), 3);
-  mesh.triangles << a.triangles,
-      (b.triangles.array() + static_cast<int>(a.vertex_count())).matrix();
-  return mesh;
 }
 
 TriangleMesh moved(TriangleMesh mesh, double x) {
@@ -572,6 +563,30 @@ TEST_CASE("mesh_repair: faces without area are found and mended however small be
     CHECK(inspection.area >= area);
     CHECK(repair_mesh(spiked).inspection.defects.empty());
   }
+}
+
+TEST_CASE("mesh_repair: a copy that was made and merged again is no vertex that is dropped") {
+  TriangleMesh mesh = icosphere(2);
+  std::vector<Face> about;  // a vertex, which joins two fans where two faces across it are gone
+  for (Face f = 0; f < mesh.face_count(); ++f)
+    if ((mesh.triangles.row(f).array() == 20).any()) about.push_back(f);
+  const auto share_an_edge = [&](Face a, Face b) {
+    int shared = 0;
+    for (int k = 0; k < 3; ++k)
+      shared += (mesh.triangles.row(b).array() == mesh.triangles(a, k)).any();
+    return shared > 1;
+  };
+  const Face first = about[0];
+  const Face second = *std::find_if(about.begin() + 1, about.end(),
+                                    [&](Face f) { return !share_an_edge(first, f); });
+  remove_face(mesh, std::max(first, second));
+  remove_face(mesh, std::min(first, second));
+  const RepairedMesh repaired = repair_mesh(mesh);
+  check_is_sphere(repaired);
+  CHECK(find(repaired, RepairKind::VertexSplit)->elements == std::vector<int>{20});
+  CHECK(find(repaired, RepairKind::FlatFaceCollapsed)->elements == std::vector<int>{20});
+  CHECK(count(repaired, RepairKind::UnusedVertexDropped) == 0);
+  CHECK(repaired.mesh.positions == mesh.positions);
 }
 
 TEST_CASE("mesh_repair: what only one repair mends, no other touches") {

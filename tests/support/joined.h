@@ -6,7 +6,7 @@ namespace sphparam::tests {
 
 /// Two meshes as one, the second one moved.
 inline TriangleMesh joined(const TriangleMesh& first, const TriangleMesh& second,
-                           const Vector3& movement) {
+                           const Vector3& movement = Vector3::Zero()) {
   TriangleMesh both;
   both.positions.resize(first.vertex_count() + second.vertex_count(), 3);
   both.positions << first.positions, second.positions.rowwise() + movement.transpose();

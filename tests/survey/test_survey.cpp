@@ -1,5 +1,4 @@
 #include <catch2/catch.hpp>
-#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -12,10 +11,12 @@
 #include "sphparam/io/safe_file.h"
 #include "sphparam/survey/survey.h"
 #include "support/folder.h"
+#include "support/holed.h"
 #include "support/joined.h"
 #include "support/one_sided.h"
 #include "support/shaken.h"
 #include "support/test_meshes.h"
+#include "support/torus.h"
 #include "support/without_area.h"
 
 using namespace sphparam;
@@ -23,8 +24,6 @@ using namespace sphparam::tests;
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr double pi = 3.141592653589793;
 
 /// A folder with a mesh of each end, gone at the end.
 struct Meshes {
@@ -34,16 +33,14 @@ struct Meshes {
   Meshes() {
     fs::create_directory(folder / "deeper");
     write("ball.ply", icosphere(2));
-    TriangleMesh open = icosphere(2);
-    open.triangles.conservativeResize(open.face_count() - 1, 3);
-    write("deeper/open.obj", open);
+    write("deeper/open.obj", with_a_hole());
     TriangleMesh nan = icosphere(2);
     nan.positions(5, 0) = std::numeric_limits<double>::quiet_NaN();
     write("nan.ply", nan);
     write("two.off", two_balls());
     std::ofstream(folder / "broken.ply") << "ply\nformat ascii 1.0\n";
     std::ofstream(folder / "triangle.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-    write("torus.obj", torus());
+    write("torus.obj", long_ring());
     for (const char* other : {"readme.txt", "scans.tar.gz", "ct.nii.gz", "sulc.shape.gii",
                               "lobes.label.gii.gz", "bold.func.gii"})
       std::ofstream(folder / other) << "no mesh\n";
@@ -56,23 +53,7 @@ struct Meshes {
   }
 
   /// Its loops are longer than those that a repair cuts unasked.
-  static TriangleMesh torus() {
-    constexpr int around = 24, across = 12;
-    TriangleMesh mesh;
-    mesh.positions.resize(around * across, 3);
-    mesh.triangles.resize(2 * around * across, 3);
-    const auto at = [](int i, int j) { return i % around * across + j % across; };
-    for (int i = 0; i < around; ++i) {
-      for (int j = 0; j < across; ++j) {
-        const double u = 2 * pi * i / around, v = 2 * pi * j / across, r = 2 + 1.2 * std::cos(v);
-        mesh.positions.row(at(i, j)) << r * std::cos(u), r * std::sin(u), 1.2 * std::sin(v);
-        const int face = 2 * (i * across + j);
-        mesh.triangles.row(face) << at(i, j), at(i + 1, j), at(i + 1, j + 1);
-        mesh.triangles.row(face + 1) << at(i, j), at(i + 1, j + 1), at(i, j + 1);
-      }
-    }
-    return mesh;
-  }
+  static TriangleMesh long_ring() { return torus(24, 12, 2, 1.2); }
 
   static TriangleMesh two_balls() { return joined(icosphere(2), icosphere(2), {5, 5, 5}); }
 };
@@ -233,7 +214,7 @@ TEST_CASE("survey: components that cannot be mapped are left out as map leaves t
 
 TEST_CASE("survey: components are tried with what all of them take, pieces of a soup with a weld") {
   const Meshes meshes;
-  meshes.write("ringed.off", joined(icosphere(2), Meshes::torus(), {20, 20, 20}));
+  meshes.write("ringed.off", joined(icosphere(2), Meshes::long_ring(), {20, 20, 20}));
   meshes.write("soup.ply", shaken_apart(icosphere(3), 1e-5));
   meshes.write("torn.obj", torn_by_rounding(icosphere(4), 0.005));
   const Survey survey = survey_folder(meshes.folder.string(), {.picture_size = 0});

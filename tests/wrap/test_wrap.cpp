@@ -8,7 +8,9 @@
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/wrap/wrap.h"
 #include "support/cube.h"
+#include "support/joined.h"
 #include "support/test_meshes.h"
+#include "support/torus.h"
 
 namespace sphparam {
 
@@ -21,30 +23,7 @@ TriangleMesh moved(TriangleMesh mesh, const Vector3& by) {
   return mesh;
 }
 
-TriangleMesh together(const TriangleMesh& a, const TriangleMesh& b) {
-  TriangleMesh both{Points(a.vertex_count() + b.vertex_count(), 3),
-                    Triangles(a.face_count() + b.face_count(), 3)};
-  both.positions << a.positions, b.positions;
-  both.triangles << a.triangles,
-      (b.triangles.array() + static_cast<int>(a.vertex_count())).matrix();
-  return both;
-}
-
-TriangleMesh torus(double large, double small) {
-  constexpr int around = 48, across = 24;
-  TriangleMesh mesh{Points(around * across, 3), Triangles(2 * around * across, 3)};
-  const auto id = [](int i, int j) { return (i % around) * across + j % across; };
-  for (int i = 0, f = 0; i < around; ++i) {
-    for (int j = 0; j < across; ++j) {
-      const double s = 2 * std::numbers::pi * i / around, t = 2 * std::numbers::pi * j / across;
-      const double r = large + small * std::cos(t);
-      mesh.positions.row(id(i, j)) << r * std::cos(s), r * std::sin(s), small * std::sin(t);
-      mesh.triangles.row(f++) << id(i, j), id(i + 1, j), id(i + 1, j + 1);
-      mesh.triangles.row(f++) << id(i, j), id(i + 1, j + 1), id(i, j + 1);
-    }
-  }
-  return mesh;
-}
+TriangleMesh hoop(double large, double small) { return torus(48, 24, large, small); }
 
 TriangleMesh sheet() {
   TriangleMesh mesh{Points(4, 3), Triangles(2, 3)};
@@ -89,7 +68,7 @@ TEST_CASE("wrap: an open sheet is enclosed from both sides") {
 }
 
 TEST_CASE("wrap: triangles that pass through one another, turned inside out, and needles") {
-  TriangleMesh soup = together(icosphere(2), moved(icosphere(2), {0.7, 0.1, 0}));
+  TriangleMesh soup = joined(icosphere(2), moved(icosphere(2), {0.7, 0.1, 0}));
   soup.triangles.row(0).reverseInPlace();
   soup.triangles.row(5) = soup.triangles.row(7);
   soup.triangles(9, 0) = soup.triangles(9, 1);
@@ -99,7 +78,7 @@ TEST_CASE("wrap: triangles that pass through one another, turned inside out, and
 }
 
 TEST_CASE("wrap: the hole of a torus is closed by a wall, and told") {
-  const TriangleMesh soup = torus(1, 0.3);
+  const TriangleMesh soup = hoop(1, 0.3);
   const Wrap wrap = wrap_soup(soup, {.voxel = 0.05, .distance = 0.1});
   CHECK(inspect_mesh(wrap.mesh).defects.empty());
   CHECK(wrap.handles == 1);
@@ -115,13 +94,13 @@ TEST_CASE("wrap: the hole of a torus is closed by a wall, and told") {
 }
 
 TEST_CASE("wrap: at a distance that closes the hole there is none") {
-  const Wrap wrap = wrap_soup(torus(1, 0.3), {.voxel = 0.1, .distance = 0.75});
+  const Wrap wrap = wrap_soup(hoop(1, 0.3), {.voxel = 0.1, .distance = 0.75});
   CHECK(wrap.handles == 0);
   check_shell(wrap);
 }
 
 TEST_CASE("wrap: what is apart is joined by a bridge, or the largest is kept, both are told") {
-  const TriangleMesh soup = together(icosphere(2), moved(torus(0.3, 0.15), {3, 0, 0}));
+  const TriangleMesh soup = joined(icosphere(2), moved(hoop(0.3, 0.15), {3, 0, 0}));
   const Wrap joined = wrap_soup(soup, {.voxel = 0.08});
   CHECK(inspect_mesh(joined.mesh).defects.empty());
   CHECK(joined.parts == 2);
@@ -137,7 +116,7 @@ TEST_CASE("wrap: what is apart is joined by a bridge, or the largest is kept, bo
                .distance = largest.distance,
                .apart = largest.apart});
   CHECK(largest.parts == 2);
-  CHECK(largest.outside == torus(0.3, 0.15).vertex_count());
+  CHECK(largest.outside == hoop(0.3, 0.15).vertex_count());
   CHECK(largest.kept_share > 0.85);
   CHECK(largest.kept_share < 0.95);
   CHECK(largest.added_share == 0);
@@ -148,11 +127,11 @@ TEST_CASE("wrap: a void within a solid is a cavity, its outside an inside") {
   TriangleMesh within = icosphere(3);
   within.positions *= 0.5;
   within.triangles.col(0).swap(within.triangles.col(1));
-  const Wrap hollow = wrap_soup(together(icosphere(3), within), {.voxel = 0.05});
+  const Wrap hollow = wrap_soup(joined(icosphere(3), within), {.voxel = 0.05});
   CHECK(hollow.insides == 1);
   CHECK(hollow.cavities == 1);
   within.triangles.col(0).swap(within.triangles.col(1));
-  const Wrap filled = wrap_soup(together(icosphere(3), within), {.voxel = 0.05});
+  const Wrap filled = wrap_soup(joined(icosphere(3), within), {.voxel = 0.05});
   CHECK(filled.insides == 2);
   CHECK(filled.cavities == 0);
 }
@@ -172,7 +151,7 @@ TEST_CASE("wrap: drawn in to the gap, where no wall is") {
   CHECK(flat.apart.forth.at_vertices.maxCoeff() < 1.06 * flat.gap);
   CHECK(flat.apart.back.max < 0.02);
 
-  const Wrap ring = wrap_soup(torus(1, 0.3), {.voxel = 0.05, .distance = 0.1, .gap = 0.01});
+  const Wrap ring = wrap_soup(hoop(1, 0.3), {.voxel = 0.05, .distance = 0.1, .gap = 0.01});
   CHECK(ring.handles == 1);
   CHECK(ring.apart.forth.max == Approx(0.7).margin(0.05));  // the wall stays
   const double disc = std::numbers::pi * 0.7 * 0.7 * ring.voxel;
@@ -204,7 +183,7 @@ TEST_CASE("wrap: drawn in, corners stay corners, to less than a voxel") {
 }
 
 TEST_CASE("wrap: the same bytes for any number of threads") {
-  const TriangleMesh soup = together(torus(1, 0.3), moved(icosphere(1), {2.9, 0.3, 0.1}));
+  const TriangleMesh soup = joined(hoop(1, 0.3), moved(icosphere(1), {2.9, 0.3, 0.1}));
   const Wrap one = wrap_soup(soup, {.resolution = 50, .gap = 0.01, .threads = 1});
   const Wrap two = wrap_soup(soup, {.resolution = 50, .gap = 0.01, .threads = 2});
   CHECK(one.mesh.positions == two.mesh.positions);
@@ -214,8 +193,8 @@ TEST_CASE("wrap: the same bytes for any number of threads") {
 }
 
 TEST_CASE("wrap: a soup moved by voxels is wrapped alike") {
-  const Wrap here = wrap_soup(torus(1, 0.3), {.voxel = 0.0625});
-  const Wrap there = wrap_soup(moved(torus(1, 0.3), {8, -4, 16}), {.voxel = 0.0625});
+  const Wrap here = wrap_soup(hoop(1, 0.3), {.voxel = 0.0625});
+  const Wrap there = wrap_soup(moved(hoop(1, 0.3), {8, -4, 16}), {.voxel = 0.0625});
   REQUIRE(here.mesh.triangles == there.mesh.triangles);
   CHECK((moved(here.mesh, {8, -4, 16}).positions - there.mesh.positions).cwiseAbs().maxCoeff() <
         1e-6);
