@@ -83,6 +83,24 @@ void add_normals(MeshFile& file, const Points& normals) {
   }
 }
 
+/// One a corner, as the wedges have them.
+CornerNormals corner_normals(const SphericalChart& chart, const Points& of_wedges) {
+  CornerNormals normals(chart.wedges.size(), 3);
+  for (Eigen::Index corner = 0; corner < normals.rows(); ++corner)
+    normals.row(corner) = of_wedges.row(chart.wedges.data()[corner]);
+  return normals;
+}
+
+/// One a corner; t runs upwards.
+CornerTexcoords corner_texcoords(const SphericalChart& chart, bool mirrored) {
+  CornerTexcoords texcoords(chart.wedges.size(), 2);
+  for (Eigen::Index corner = 0; corner < texcoords.rows(); ++corner) {
+    const auto uv = chart.uv.row(chart.wedges.data()[corner]);
+    texcoords.row(corner) << (mirrored ? 1 - uv[0] : uv[0]), 1 - uv[1];
+  }
+  return texcoords;
+}
+
 }  // namespace
 
 MeshFile textured_mesh(const ExportChart& exported, const MeshFile& source, ShapeKind shape,
@@ -108,17 +126,9 @@ MeshFile textured_mesh(const ExportChart& exported, const MeshFile& source, Shap
   });
   add_normals(file, is_sphere ? chart.points
                               : carry_normals(chart, triangles, shading_normals(source), threads));
-  if (exported.wedge_normals && !is_sphere) {
-    file.corner_normals = CornerNormals(chart.triangles.size(), 3);
-    for (Eigen::Index corner = 0; corner < chart.wedges.size(); ++corner)
-      file.corner_normals->row(corner) = exported.wedge_normals->row(chart.wedges.data()[corner]);
-  }
-  CornerTexcoords texcoords(chart.triangles.size(), 2);
-  for (Eigen::Index corner = 0; corner < texcoords.rows(); ++corner) {
-    const auto uv = chart.uv.row(chart.wedges.data()[corner]);
-    texcoords.row(corner) << (exported.mirrored ? 1 - uv[0] : uv[0]), 1 - uv[1];
-  }
-  file.corner_texcoords = std::move(texcoords);
+  if (exported.wedge_normals && !is_sphere)
+    file.corner_normals = corner_normals(chart, *exported.wedge_normals);
+  file.corner_texcoords = corner_texcoords(chart, exported.mirrored);
   if (!is_sphere) take_up(file, source), note_up(file, up);
   file.materials = {material_name};
   file.set_face_property({"material", ScalarType::Int32,
