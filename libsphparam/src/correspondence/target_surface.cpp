@@ -1,5 +1,6 @@
 #include "correspondence/target_surface.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -37,6 +38,40 @@ Crossing first_crossing(const Vector3& weights, const Vector3& change, int enter
 Vector3 clamped(const Vector3& weights) {
   const Vector3 positive = weights.cwiseMax(0);
   return positive / positive.sum();
+}
+
+using Corners = std::array<Vector3, 3>;
+
+bool is_flat(const Corners& x) { return sphparam::is_flat(x[0], x[1], x[2]); }
+
+/// Twice the area times the normal.
+Vector3 normal_of(const Corners& x) { return (x[1] - x[0]).cross(x[2] - x[0]); }
+
+/// What the weights of a face change by along a way in its plane.
+Vector3 changes_along(const Vector3& way, const Corners& x, const Vector3& normal) {
+  Vector3 changes;
+  for (int k = 0; k < 3; ++k) {
+    const auto i = static_cast<size_t>(k);
+    const Vector3 edge = x[(i + 2) % 3] - x[(i + 1) % 3];
+    changes[k] = way.dot(normal.cross(edge)) / normal.squaredNorm();
+  }
+  return changes;
+}
+
+/// A way turned round an edge, of length 1, into the plane of the face beyond it.
+Vector3 unfolded(const Vector3& way, const Vector3& edge, const Vector3& unit_normal,
+                 const Vector3& unit_normal_beyond) {
+  const Vector3 across = edge.cross(unit_normal);  // out of the face
+  return way.dot(edge) * edge + way.dot(across) * edge.cross(unit_normal_beyond);
+}
+
+/// A point of the edge opposite to a corner, with the weights of the face beyond it, which the edge
+/// enters as `in`.
+SurfacePoint seen_from_beyond(const SurfacePoint& at, int corner, Halfedge in) {
+  Vector3 weights = Vector3::Zero();
+  weights[in % 3] = at.barycentric[(corner + 2) % 3];
+  weights[(in % 3 + 1) % 3] = at.barycentric[(corner + 1) % 3];
+  return {in / 3, weights};
 }
 
 }  // namespace
@@ -97,22 +132,21 @@ void TargetSurface::measure(Place& place) const {
     ray += w[k] * rays[i];
   }
   PlaceFrame& frame = place.frame;
-  if (is_flat(x[0], x[1], x[2])) {
+  if (is_flat(x)) {
     frame.u = frame.v = frame.of_u = frame.of_v = frame.turn_u = frame.turn_v = Vector3::Zero();
     return;
   }
-  const Vector3 normal = (x[1] - x[0]).cross(x[2] - x[0]);
+  const Vector3 normal = normal_of(x);
   const TangentFrame tangents = tangent_frame(normal.normalized());
   const double length = ray.norm();
   const auto change = [&](const Vector3& way, Vector3& position, Vector3& direction) {
+    const Vector3 changes = changes_along(way, x, normal);
     position.setZero();
     direction.setZero();
     for (int k = 0; k < 3; ++k) {
       const auto i = static_cast<size_t>(k);
-      const Vector3 edge = x[(i + 2) % 3] - x[(i + 1) % 3];
-      const double weight = way.dot(normal.cross(edge)) / normal.squaredNorm();
-      position += weight * rounded[i] + w[k] * (way - normals[i].dot(way) * normals[i]);
-      direction += weight * rays[i];
+      position += changes[k] * rounded[i] + w[k] * (way - normals[i].dot(way) * normals[i]);
+      direction += changes[k] * rays[i];
     }
     direction = (direction - direction.dot(ray) / (length * length) * ray) / length;
   };
@@ -125,8 +159,8 @@ void TargetSurface::measure(Place& place) const {
 Eigen::Matrix<double, 3, 2> TargetSurface::changes_of_weights(const Place& place) const {
   Eigen::Matrix<double, 3, 2> changes = Eigen::Matrix<double, 3, 2>::Zero();
   const Corners x = corners(place.at.face);
-  if (is_flat(x[0], x[1], x[2])) return changes;
-  const Vector3 normal = (x[1] - x[0]).cross(x[2] - x[0]);
+  if (is_flat(x)) return changes;
+  const Vector3 normal = normal_of(x);
   for (int k = 0; k < 3; ++k) {
     const auto i = static_cast<size_t>(k);
     const Vector3 slope = normal.cross(x[(i + 2) % 3] - x[(i + 1) % 3]) / normal.squaredNorm();
@@ -141,34 +175,22 @@ Place TargetSurface::walk(const Place& from, const Vector3& way) const {
   int entered = -1;
   for (int n = 0; n < most_faces; ++n) {
     const Corners x = corners(at.face);
-    if (is_flat(x[0], x[1], x[2])) break;
-    const Vector3 normal = (x[1] - x[0]).cross(x[2] - x[0]);
-    Vector3 change;
-    for (int k = 0; k < 3; ++k) {
-      const Vector3 edge = x[(k + 2) % 3] - x[(k + 1) % 3];
-      change[k] = left.dot(normal.cross(edge)) / normal.squaredNorm();
-    }
-    const Crossing crossing = first_crossing(at.barycentric, change, entered);
-    at.barycentric += crossing.part * change;
-    if (crossing.corner < 0) break;
-    at.barycentric[crossing.corner] = 0;
+    if (is_flat(x)) break;
+    const Vector3 normal = normal_of(x);
+    const Vector3 change = changes_along(left, x, normal);
+    const auto [corner, part] = first_crossing(at.barycentric, change, entered);
+    at.barycentric += part * change;
+    if (corner < 0) break;
+    at.barycentric[corner] = 0;
     at.barycentric = clamped(at.barycentric);
-    const Halfedge out = 3 * at.face + (crossing.corner + 1) % 3, in = topology_.twin(out);
-    const Vector3 from_corner = x[(crossing.corner + 1) % 3], to = x[(crossing.corner + 2) % 3];
-    const Vector3 along = (to - from_corner).normalized();
-    const Vector3 across = along.cross(normal.normalized());  // out of the face
-    const Face next = in / 3;
-    const Corners y = corners(next);
-    const Vector3 next_normal = (y[1] - y[0]).cross(y[2] - y[0]).normalized();
-    left *= 1 - crossing.part;
-    left = left.dot(along) * along + left.dot(across) * along.cross(next_normal);
-    const int corner = in % 3;  // in: from `to` to `from_corner`
-    Vector3 weights = Vector3::Zero();
-    weights[corner] = at.barycentric[(crossing.corner + 2) % 3];
-    weights[(corner + 1) % 3] = at.barycentric[(crossing.corner + 1) % 3];
-    if (is_flat(y[0], y[1], y[2])) break;
-    entered = (corner + 2) % 3;
-    at = {next, weights};
+    const int first = (corner + 1) % 3, last = (corner + 2) % 3;  // of the edge
+    const Halfedge in = topology_.twin(3 * at.face + first);
+    const Corners y = corners(in / 3);
+    const Vector3 edge = (x[last] - x[first]).normalized();
+    left = unfolded((1 - part) * left, edge, normal.normalized(), normal_of(y).normalized());
+    if (is_flat(y)) break;
+    entered = (in % 3 + 2) % 3;
+    at = seen_from_beyond(at, corner, in);
   }
   at.barycentric = clamped(at.barycentric);
   return place(at);
