@@ -482,6 +482,32 @@ def test_the_distance_of_every_vertex_and_its_side(mapped):
         sp.measure(mapped, (V, F[1:]), samples=100, signed=True)
 
 
+def test_the_centroid_is_a_centre_as_on_the_command_line(tmp_path):
+    mesh = sp.Mesh(V + [0, 0, 5.0], F)
+    mesh.save(tmp_path / "a.ply")
+    program("map", "a.ply", "--method", "radial", "--centre", "centroid", "-o", "a.sph.ply", cwd=tmp_path)
+    body = sp.map(mesh, method="radial", centre="centroid")
+    assert np.array_equal(body.points, sp.load(tmp_path / "a.sph.ply").points)
+    centroid = sp.inspect(mesh).body.centroid
+    assert body.radial.centre == centroid
+    assert body.spharm(2, radius=True, centre="centroid").centre == centroid
+    images = [body.bake("radius", size=16, centre=centre) for centre in ("centroid", centroid)]
+    assert np.array_equal(*images)
+    with pytest.raises(TypeError, match="centre"):
+        body.bake("radius", size=16, centre="middle")
+
+
+def test_colours_of_numbers_are_over_the_range_that_is_asked_for(tmp_path):
+    made = sp.map(V, F, values={"height": V[:, 2]})
+    whole, part = (made.bake("scalar:height", size=32, heat=True, range=(-ends, ends)) for ends in (2, 1))
+    assert not np.array_equal(whole, part)
+    made.bake_files({"scalar:height": tmp_path / "h.exr"}, size=32, heat=True, range=(-2, 2), depth="float")
+    with pytest.raises(ValueError, match="range: of the colours of scalar:NAME"):
+        made.bake("scalar:height", size=32, range=(-2, 2))
+    with pytest.raises(ValueError, match="range: of the colours of scalar:NAME"):
+        made.bake("radius", size=32, heat=True, range=(-2, 2))
+
+
 def test_the_radius_as_planetary_science_has_it(tmp_path):
     body = sp.map(V + [0, 0, 5.0], F, method="radial", centre=(0, 0, 5))
     (tmp_path / "body").mkdir()

@@ -10,7 +10,7 @@ from . import _arrays, _core
 from ._figures import Certificate
 from ._losses import tell
 from ._map_options import requested
-from ._mesh import Path, any_mesh, existing, path_of, read_limits
+from ._mesh import Path, any_mesh, centre_of, existing, path_of, read_limits
 from ._progress import Progress, told
 from ._repair import mended, repair_option_names, repair_options
 from ._sphere_map import SphereMap
@@ -53,7 +53,7 @@ def map(
     up: Optional[Direction] = None,
     front: Optional[Direction] = None,
     pins: Optional[Mapping[int, Tuple[float, float]]] = None,
-    centre: Optional[Tuple[float, float, float]] = None,
+    centre: Union[str, Tuple[float, float, float], None] = None,
     align: Any = None,
     filler_share: float = 0.02,
     paper: Optional[Mapping[str, Any]] = None,
@@ -96,7 +96,8 @@ def map(
     pins
         Vertex to (θ, φ) in radians: to be exactly there.
     centre
-        Of ``method="radial"`` and ``align="body"``, in the mesh's coordinates; None: the origin.
+        Of ``method="radial"`` and ``align="body"``, in the mesh's coordinates; ``"centroid"``: that of what the
+        mesh encloses; None: the origin.
     align
         Turns the finished map to ``"body"``, the directions from the centre; to another map of the mesh; or to
         (V, 3) rays. Not with poles, meridian or pins.
@@ -139,6 +140,8 @@ def map(
         found._require_sound()
         if mending is None:
             require_welded(found)
+        if "centre" in options:
+            options["centre"] = centre_of(options["centre"], found)
         mine = found is not mesh
         made = SphereMap._of(_core.map(found._source, mine, options, report))
     made._found.update(welds=found._welds, share=found.area_share)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Iterable, List, Optional, Sequence, Tuple
 from . import _arrays, _core
 from ._losses import tell
 from ._map_facts import MapFacts, mapped_of
+from ._mesh import centre_of
 from ._progress import Progress, told
 
 if TYPE_CHECKING:
@@ -108,7 +109,7 @@ class MapGrids(MapFacts):
         align: Union[bool, str] = False,
         flip_template: Optional[Harmonics] = None,
         radius: bool = False,
-        centre: Optional[Tuple[float, float, float]] = None,
+        centre: Union[str, Tuple[float, float, float], None] = None,
         threads: int = 0,
         progress: Progress = None,
     ) -> Harmonics:
@@ -119,7 +120,7 @@ class MapGrids(MapFacts):
         onto the axes of the first-order ellipsoid, so that coefficients do not depend on how mesh and map lay; ``"sphere"``: the sphere alone, as SPHARM-PDM has both.
         ``flip_template``: of the half turns that leave the ellipsoid, that which brings coefficients nearest to these, which are
         aligned (None: by the surface's skewness). ``radius``: the distance from
-        ``centre`` too (None: that of a radial map, else the origin), as planetary science has shapes; of a map of
+        ``centre`` too (``"centroid"``: that of what the mesh encloses; None: that of a radial map, else the origin), as planetary science has shapes; of a map of
         ``method="radial"`` by the body's own longitudes and latitudes, and a warning tells how far others are off.
         """
         from ._harmonics import Harmonics
@@ -128,7 +129,7 @@ class MapGrids(MapFacts):
         flips = _flips(flip_template, turned)
         names = [column for name in _names(values, "values") for column in self.values.columns(name)]
         degree = _arrays.whole(degree, "degree", 1 if turned else 0, 1000)
-        about = None if centre is None else _arrays.three(centre, "centre")
+        about = None if centre is None else centre_of(centre, self.mesh)
         if about is not None and not radius:
             raise ValueError("centre: it is that of the radius: radius=True")
         if self.fillers.any():

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Dict, List, Mapping, Optional, Tuple
+from typing import TYPE_CHECKING, Any, Dict, List, Mapping, Optional, Tuple, Union
 
 from . import _arrays, _core
 from ._figures import BakedFile
 from ._losses import tell
 from ._map_facts import MapFacts, mapped_of
-from ._mesh import Mesh, Path, any_mesh, existing, path_of
+from ._mesh import Mesh, Path, any_mesh, centre_of, existing, path_of
 from ._progress import Progress, told
 from ._up import Direction, as_direction
 
@@ -43,7 +43,7 @@ def _baking(given: Dict[str, Any]) -> Dict[str, Any]:
     if given.get("range") is not None:
         options["range"] = _arrays.least_and_greatest(given["range"], "range")
     if given["centre"] is not None:
-        options["centre"] = _arrays.three(given["centre"], "centre")
+        options["centre"] = centre_of(given["centre"], given["self"].mesh)
     if given["texture"] is not None:
         options["texture"] = existing(given["texture"])
     if given["target"] is not None:
@@ -97,6 +97,7 @@ class MapImages(MapFacts):
         texture: Optional[Path] = None,
         filter: str = "bilinear",
         wrap: str = "repeat",
+        range: Optional[Tuple[float, float]] = None,
         heat: bool = False,
         normal_y_down: bool = False,
         height_radial: bool = False,
@@ -108,7 +109,7 @@ class MapImages(MapFacts):
         body: str = "",
         unit: str = "m",
         positive_west: bool = False,
-        centre: Optional[Tuple[float, float, float]] = None,
+        centre: Union[str, Tuple[float, float, float], None] = None,
         threads: int = 0,
         progress: Progress = None,
     ) -> BakedImage:
@@ -138,6 +139,9 @@ class MapImages(MapFacts):
         filter, wrap
             How it is magnified: ``"nearest"``, ``"bilinear"``, ``"bicubic"``; what it is beyond its
             borders: ``"repeat"``, ``"mirror"``, ``"clamp"``.
+        range
+            With ``heat``, of ``"scalar:NAME"``: the least and the greatest number that have colours of their own,
+            so that images can be compared; None: those of the values.
         heat
             Distortion, curvature and ``"scalar:NAME"`` as colours instead of numbers.
         normal_y_down
@@ -161,7 +165,8 @@ class MapImages(MapFacts):
         positive_west
             Longitudes of ``"lon"`` grow to the west.
         centre
-            Of the body, in the mesh's coordinates; None: that of a radial map, else the origin.
+            Of the body, in the mesh's coordinates; ``"centroid"``: that of what the mesh encloses; None: that of a
+            radial map, else the origin.
 
         Returns
         -------
@@ -173,6 +178,8 @@ class MapImages(MapFacts):
         from ._baked import Baked, BakedImage
 
         _require_field(_arrays.text(field, "field"))
+        if range is not None and not (heat and field.startswith("scalar:")):
+            raise ValueError("range: of the colours of scalar:NAME, which heat=True has")
         surface = _taken_once(surface)
         options = _baking(locals())
         self._require_scalar(field, surface)
@@ -219,7 +226,7 @@ class MapImages(MapFacts):
         body: str = "",
         unit: str = "m",
         positive_west: bool = False,
-        centre: Optional[Tuple[float, float, float]] = None,
+        centre: Union[str, Tuple[float, float, float], None] = None,
         threads: int = 0,
         progress: Progress = None,
     ) -> Tuple[BakedFile, ...]:

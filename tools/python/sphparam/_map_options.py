@@ -113,7 +113,7 @@ def requested(
     up: Any = None,
     front: Any = None,
     pins: Any = None,
-    centre: Optional[Tuple[float, float, float]] = None,
+    centre: Union[str, Tuple[float, float, float], None] = None,
     align: Any = None,
     filler_share: float = 0.02,
     paper: Any = None,
@@ -121,7 +121,7 @@ def requested(
     measure_stages: bool = False,
     threads: int = 0,
 ) -> Dict[str, Any]:
-    """What :func:`map` was asked for."""
+    """What :func:`map` was asked for; a ``centre`` of ``"centroid"`` is still to be found."""
     options: Dict[str, Any] = dict(
         method=_arrays.text(method, "method"), quality=_arrays.text(quality, "quality"),
         energy=_arrays.text(energy, "energy"), filler_share=filler_share, repair_map=repair_map,
@@ -134,7 +134,7 @@ def requested(
     if pinned:
         options["pins"] = pinned
     if centre is not None:
-        options["centre"] = _arrays.three(centre, "centre")
+        options["centre"] = centre if isinstance(centre, str) and centre == "centroid" else _arrays.three(centre, "centre")
     if align is not None:
         options.update(_alignment(align))
     if paper is not None:

@@ -382,6 +382,14 @@ def inspect(mesh: Any, faces: Any = None) -> Inspection:
     return Inspection(**found)
 
 
+def centre_of(given: Any, mesh: Mesh, name: str = "centre") -> Tuple[float, float, float]:
+    """Three numbers, or "centroid": that of what the mesh encloses; the mean of its vertices where that is next to nothing."""
+    if not isinstance(given, str) or given != "centroid":
+        return _arrays.three(given, name)
+    body = _core.inspect(mesh._source)["body"]
+    return _arrays.three(mesh.vertices.mean(axis=0) if body is None else body[0], name)
+
+
 def self_crossings(mesh: Any, faces: Any = None, *, threads: int = 0, progress: Progress = None) -> SelfCrossings:
     """The pairs of faces of a mesh that cross in space, by exact signs: that pass through one another, or
     lie over one another in a plane, also beside a corner or a side that they share. What only touches does
