@@ -22,6 +22,7 @@
 #include "support/leaks_of_others.h"
 #include "support/shaken.h"
 #include "support/test_meshes.h"
+#include "support/torus.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;
@@ -611,4 +612,28 @@ TEST_CASE("remake asset: that the occlusion of rays is shown instead of the asse
         std::vector<std::string>{"the occlusion of rays is shown instead of the materials' own, "
                                  "which is in red of ball_orm.png: without --occlusion that is "
                                  "shown"});
+}
+
+TEST_CASE("remake asset: one looks through where a wrap's walls are clear") {
+  const Folder folder;
+  TriangleMesh ball = icosphere(2);  // a ring alone would be cut open
+  ball.positions *= 0.3;
+  ball.positions.col(0).array() += 2;
+  const MeshSource asset = painted(source_of(joined(torus(24, 12, 1, 0.3), ball), "ring.obj"));
+  RemakeOptions options{.whole = coarse(), .width = 128};
+  options.page = false;
+  PendingFiles closed, files;
+  const RemadeAsset plain = remake_asset(asset, folder.path.string(), options, closed);
+  REQUIRE(plain.whole.by == WholeBy::Wrap);
+  CHECK((plain.baked.wall_share > 0.01 && plain.baked.wall_share < 0.3));
+  CHECK(plain.baked.images.front().channels == 3);
+  options.clear_walls = true;
+  const RemadeAsset clear = remake_asset(asset, folder.path.string(), options, files);
+  CHECK(clear.baked.wall_share == plain.baked.wall_share);
+  CHECK(clear.baked.images.front().channels == 4);
+  files.publish();
+  const auto material = json_of(bytes_of(folder.path.string() + "/ring.glb"))["materials"][0];
+  CHECK(material["alphaMode"] == "MASK");
+  CHECK(material["alphaCutoff"] == 0.5);
+  CHECK(material["doubleSided"] == true);
 }

@@ -75,6 +75,35 @@ TEST_CASE("calm walls: a wall shows a smooth mean of what stands about it, all e
   CHECK(std::equal(calm.begin() + below, calm.end(), streaks.begin() + below));
 }
 
+TEST_CASE("calm walls: clear ones are masked out of the base colour, and out of nothing else") {
+  MeshFile ball;
+  ball.mesh = icosphere(3);
+  SphereMap map{ball.mesh.positions};
+  const MappedMesh mapped({.file = std::move(ball), .map = std::move(map)});
+  BakeSettings settings{
+      .width = width, .from = bowl(), .calm_beyond = 0.1, .clear_walls = true, .threads = 1};
+  std::array<std::vector<float>, 2> values;
+  bake_values(mapped, {"basecolor", "vcolor"}, settings,
+              [&](size_t field, const BakedField& baked, int, int rows, const float* row) {
+                REQUIRE(baked.channels == (field == 0 ? 4 : 3));
+                values[field].insert(values[field].end(), row, row + baked.channels * rows * width);
+              });
+  const std::vector<float>&colour = values[0], &plain = values[1];
+  CHECK(plain == baked("vcolor", 0.1));
+  int clear = 0;
+  for (size_t i = 0; i < plain.size() / 3; ++i) {
+    const float alpha = colour[4 * i + 3];  // a texel may be of several samples
+    const bool is_wall = alpha < 0.5;
+    clear += is_wall;
+    for (size_t c = 0; c < 3; ++c) CHECK(colour[4 * i + c] == plain[3 * i + c]);
+    // The rim is at 53°, 0.1 of the radius within it 47°.
+    const auto row = static_cast<int>(i) / width;
+    if (row < width / 2 * 42 / 180) CHECK(alpha == 0);
+    if (row > width / 2 * 56 / 180) CHECK(alpha == Approx(1).margin(1e-6));
+  }
+  CHECK(clear > width * 7);
+}
+
 TEST_CASE("calm walls: what is masked out shows what lies close behind it, not what is far") {
   // A green ball in one that is masked out, on a ball about both.
   MeshFile file;

@@ -1,6 +1,7 @@
 // `sphparam asset FILE`, also `sphparam FILE`: an asset → one closed surface, its map, all its
 // images, a .glb that has them, a page. All files appear together or none.
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
@@ -121,17 +122,38 @@ void warn_of(const RemadeAsset& made, const AssetArguments& arguments, const std
                   "; `sphparam remesh " + shell_file(map.string()) +
                   " --grid ico:5 -o light.sph.ply` makes it lighter"});
   }
+  if (made.whole.by != WholeBy::Wrap && arguments.options.clear_walls)
+    session.warn({"--clear-walls is of wraps only, and this is none: it has no walls"});
   if (made.viewer_is_missing)
     session.console.warning("this build has no 3D viewer: the page has pictures instead");
 }
 
-void tell(const RemadeAsset& made, const std::string& folder, TextureFormat textures,
+bool has_alpha(const BakedImage& image) {
+  return image.field == "basecolor" && image.channels == 4;
+}
+
+/// What little there is of walls nobody sees.
+std::string line_of_walls(const RemadeAsset& made, bool clear) {
+  constexpr double hardly_any = 0.001;
+  const double share = made.baked.wall_share;
+  if (share < hardly_any) return "";
+  const std::string walls =
+      "walls that close ways through it are " + short_number(100 * share, 2) + " % of its area";
+  if (!clear) return walls + ": --clear-walls cuts them out of what is seen, by alpha";
+  return walls + (std::ranges::any_of(made.baked.images, has_alpha)
+                      ? ", and cut out of what is seen, by alpha"
+                      : ", and stay: it has no base colour whose alpha could cut them out");
+}
+
+void tell(const RemadeAsset& made, const std::string& folder, const RemakeOptions& options,
           Session& session) {
   for (const Words* lines : {&made.whole.found, &made.whole.done})
     for (const std::string& line : *lines) session.console.say("  " + line);
   for (const std::string& line : made.whole.details) session.console.detail("  " + line);
   if (made.baked.projection)
     session.console.say("  " + line_of(*made.baked.projection, {.source_name = "the asset"}));
+  if (const std::string walls = line_of_walls(made, options.clear_walls); !walls.empty())
+    session.console.say("  " + walls);
   if (made.parts.size() > 1) session.console.detail("  " + line_of(made.parts));
   if (made.whole.by == WholeBy::Repair && made.whole.area_kept < 1)
     session.console.say("  with --keep 1 the parts that it dropped stay, and all is wrapped");
@@ -147,7 +169,7 @@ void tell(const RemadeAsset& made, const std::string& folder, TextureFormat text
   for (const std::string& remark : made.remarks) session.console.say("  " + remark);
   session.console.say("  in the .glb: " + counted(made.chart.triangles, "triangle") + ", " +
                       counted(made.chart.vertices, "vertex", "vertices"));
-  if (textures != TextureFormat::Given)
+  if (options.textures != TextureFormat::Given)
     session.console.say("  its images: " + words_of(made.textures));
 }
 
@@ -188,7 +210,7 @@ int run_asset(AssetArguments& arguments) {
   warn_of(made, arguments, folder.path(), session);
   session.add_report([&] { return to_json(asset, made); });
   session.publish();
-  tell(made, folder.path(), arguments.options.textures, session);
+  tell(made, folder.path(), arguments.options, session);
   tell_size(made.whole.mapped.mesh(), session);
   if (!arguments.options.up.direction && !noted_up(asset.file).direction)
     session.console.say("  z is taken to point up; --up y where it lies on its side");
@@ -203,6 +225,9 @@ void declare_options(Declaration& command, AssetArguments& arguments) {
       .preset("NAME_sphere")
       .number("--size", options.width, "N", {2, 65536}, "Texels a row of images; half as many rows")
       .number("--samples", options.samples, "N", {1, 32}, "N × N samples a texel")
+      .flag("--clear-walls", options.clear_walls,
+            "Walls that close ways through a wrap are cut out of what is seen, by alpha: the "
+            "surface stays closed")
       .flag("--occlusion", options.occlusion, "Ambient occlusion too, by rays")
       .number("--faces", options.whole.faces, "N", {0, 100'000'000},
               "About so many triangles of a wrap; 0: all")

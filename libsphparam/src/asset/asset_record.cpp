@@ -111,6 +111,7 @@ std::string to_json(const MeshSource& asset, const RemadeAsset& remade) {
        {"textures", textures_json(remade.textures)},
        {"parts", parts_json(remade.parts)},
        {"from", projection_json(remade.baked.projection)},
+       {"wall_share", remade.baked.wall_share},
        {"folds_as_stored", remade.chart.stored.folded.size()},
        {"warnings", remade.warnings},
        {"losses", all_losses(asset, remade)},

@@ -134,6 +134,7 @@ class Remaker {
                           .progress = options_.whole.progress};
     if (!is_itself()) settings.from = with_places(asset_);
     if (remade_.whole.by == WholeBy::Wrap) settings.calm_beyond = walls_beyond * voxel();
+    settings.clear_walls = options_.clear_walls;
     return settings;
   }
 

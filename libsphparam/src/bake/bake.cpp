@@ -56,6 +56,7 @@ BakeScene scene_for(const MappedMesh& source, BakeTarget target, bool with_textu
   scene.options.centre = body_centre(planetocentric(source.provenance()), settings.fields.centre);
   scene.body_axes = body_axes(source.file());
   scene.calm_beyond = settings.from ? settings.calm_beyond : 0;
+  scene.clear_walls = settings.clear_walls;
   scene.mirrored = info_of(settings.convention).turns < 0;
   if (with_textures) read_source_textures(settings, scene.source);
   return scene;
@@ -174,6 +175,7 @@ BakeReport bake(const MappedMesh& source, const std::vector<BakeRequest>& images
     for (std::string& warning : one_material(scene.source.file()).warnings)
       report.warnings.push_back(std::move(warning));
   scene.walls = walls_of(scene, settings);
+  if (scene.walls) report.wall_share = scene.walls->area_share();
   std::vector<PlannedImage> plan;
   for (const BakeRequest& request : images) plan.push_back(plan_image(request, scene, settings));
   for (PlannedImage& image : plan) CalmWalls::calm(scene.walls, image.field);

@@ -55,6 +55,7 @@ struct BakeScene {
   bool mirrored = false;   // u of the image runs against longitude: see `Convention`
   double calm_beyond = 0;  // as in `BakeSettings`
   std::shared_ptr<const CalmWalls> walls = nullptr;  // none: nothing is calm
+  bool clear_walls = false;                          // as in `BakeSettings`
   bool ids_as_colours = false;  // in integer images, which cannot hold large numbers
   Eigen::Matrix3d body_axes = Eigen::Matrix3d::Identity();  // as in io/planetocentric.h
 };

@@ -88,7 +88,8 @@ struct SurfaceField {
   // Of colours that stand for numbers: see `as_heat`. Null: of all others, and of labels whose
   // table has colours.
   std::shared_ptr<const HeatScale> scale = nullptr;
-  bool calm = false;  // shows nothing of what walls hide: see CalmWalls
+  bool calm = false;         // shows nothing of what walls hide: see CalmWalls
+  bool clear_walls = false;  // and its alpha is 0 there
 
   /// Fills values[channels·i …] for sample i. Called from many threads at once.
   std::function<void(std::span<const SurfaceSample> samples, float* values)> evaluate = {};

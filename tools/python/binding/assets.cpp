@@ -32,6 +32,7 @@ Wanted wanted_of(const py::dict& values) {
   settings.take("size", options.width)
       .take("samples", options.samples)
       .take("occlusion", options.occlusion)
+      .take("clear_walls", options.clear_walls)
       .take("triangles", options.whole.faces)
       .take("resolution", options.whole.resolution)
       .take("least_kept", options.whole.least_kept)
@@ -127,6 +128,7 @@ py::dict as_dict(const Made& made) {
   dict["done"] = as_texts(remade.whole.done);
   dict["details"] = as_texts(remade.whole.details);
   dict["images"] = images;
+  dict["wall_share"] = remade.baked.wall_share;
   dict["projection"] = projection_of(remade.baked.projection);
   dict["files"] = files;
   dict["warnings"] = as_texts(remade.warnings);

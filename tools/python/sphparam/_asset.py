@@ -51,6 +51,8 @@ class Asset(NamedTuple):
     """The file of each image by what it shows: ``"basecolor"``, ``"normal-tangent"``, ``"orm"`` …"""
     projection: Optional[Projection]
     """How the channels came onto it; None where it is the asset itself."""
+    wall_share: float
+    """Of its area, what closes ways through a wrap."""
     files: List[str]
     """All that were written."""
     warnings: List[str]
@@ -85,6 +87,7 @@ def asset(
     size: int = 2048,
     samples: int = 1,
     occlusion: bool = False,
+    clear_walls: bool = False,
     triangles: int = 50_000,
     resolution: int = 192,
     least_kept: float = 0.98,
@@ -115,6 +118,8 @@ def asset(
         Texels a row of images, half as many rows; samples² samples a texel.
     occlusion
         Ambient occlusion too, by rays.
+    clear_walls
+        Walls that close ways through a wrap are cut out of what is seen, by alpha; the surface stays closed.
     triangles, resolution
         Of a wrap: about so many, 0: all; voxels along the longest side of the box.
     least_kept
@@ -146,6 +151,7 @@ def asset(
         "size": _arrays.whole(size, "size", 2, 65_536),
         "samples": _arrays.whole(samples, "samples", 1, 32),
         "occlusion": _arrays.flag(occlusion, "occlusion"),
+        "clear_walls": _arrays.flag(clear_walls, "clear_walls"),
         "triangles": _arrays.whole(triangles, "triangles", 0, 100_000_000),
         "resolution": _arrays.whole(resolution, "resolution", 8, 2000),
         "least_kept": _arrays.real(least_kept, "least_kept"),

@@ -18,6 +18,7 @@ struct RemakeOptions {
   int width = 2048;                               // texels a row of images; even, 2 to 65536
   int samples = 1;                                // N × N a texel; 1 to 32
   bool occlusion = false;                         // ambient occlusion too, by rays
+  bool clear_walls = false;                       // walls of a wrap are masked out of what is seen
   bool compress = false;                          // the .glb: see `GltfOptions::compress`
   TextureFormat textures = TextureFormat::Given;  // its images; those beside it are PNG
   int webp_quality = 90;                          // see `LookOptions`
@@ -43,10 +44,10 @@ struct RemadeAsset {
   std::vector<TextureFigures> textures = {};  // what became of these
   std::vector<PartTexels> parts = {};         // of what was baked, that with most texels first
   std::vector<std::string> warnings = {};
-  std::vector<std::string> losses = {};  // what its file had and what is made has not, or the .glb
-                                         // alone; as `add_loss` words it
-  std::vector<std::string> remarks = {};                     // on images of one colour
-  bool viewer_is_missing = false;                            // the page has pictures only
+  std::vector<std::string> losses = {};   // what its file had and what is made has not, or the .glb
+                                          // alone; as `add_loss` words it
+  std::vector<std::string> remarks = {};  // on images of one colour
+  bool viewer_is_missing = false;         // the page has pictures only
   std::vector<std::pair<std::string, double>> seconds = {};  // of each stage
 };
 

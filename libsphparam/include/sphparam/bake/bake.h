@@ -55,6 +55,8 @@ struct BakeSettings {
   // mesh's own. What is masked out shows what lies less than twice as far behind it, where the mesh
   // is about both and would have a hole. 0: neither; else finite and above.
   double calm_beyond = 0;
+  // Such walls are masked out of the base colour: its alpha is 0 there, and its metadata say so.
+  bool clear_walls = false;
   int refine_poles = 1;          // the images are for that chart: see `refine_poles`; 1 to 1024
   std::string source_name = {};  // in metadata and messages; empty: the source's own
   int threads = 0;               // 0: all cores
@@ -86,7 +88,8 @@ struct BakeReport {
   std::vector<BakedImage> images;                   // as they were asked for
   std::optional<double> target_distance;            // from the source, median, in its diagonals
   std::optional<ProjectionShares> projection = {};  // of the settings' `from`
-  std::vector<std::string> warnings;                // what the user should look at
+  double wall_share = 0;  // of the mesh's area, what is a wall (the settings' `calm_beyond`)
+  std::vector<std::string> warnings;  // what the user should look at
   // What the sidecars call longitude and latitude: "Vesta (2015) - Sphere / Ocentric"; empty: none.
   std::string coordinate_system = {};
 };

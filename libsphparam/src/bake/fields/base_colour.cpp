@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "bake/fields/attribute_fields.h"
+#include "bake/fields/clear_walls.h"
 #include "bake/fields/linear_field.h"
 #include "bake/fields/material_fields.h"
 #include "bake/fields/texture_line.h"
@@ -255,9 +256,7 @@ SurfaceField field_of(std::shared_ptr<const Painter> painter, const MeshFile& fi
   return field;
 }
 
-}  // namespace
-
-SurfaceField make_base_colour(const BakeScene& scene, const std::string&) {
+SurfaceField colour_field(const BakeScene& scene) {
   const MeshFile& file = scene.source.file();
   const std::vector<SourceTexture>& textures = scene.source.textures;
   // In glTF colours of vertices multiply what the material says; elsewhere they stand for it.
@@ -274,6 +273,13 @@ SurfaceField make_base_colour(const BakeScene& scene, const std::string&) {
   if (says_alpha(scene.source)) set_alpha(scene, *painter);
   if (tints) painter->colours = corner_light(file);
   return field_of(painter, file);
+}
+
+}  // namespace
+
+SurfaceField make_base_colour(const BakeScene& scene, const std::string&) {
+  SurfaceField field = colour_field(scene);
+  return scene.walls && scene.clear_walls ? with_clear_walls(std::move(field)) : field;
 }
 
 }  // namespace sphparam

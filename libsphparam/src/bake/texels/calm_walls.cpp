@@ -156,6 +156,16 @@ std::vector<char> CalmWalls::project(std::vector<Probe>& probes) const {
   return is_wall;
 }
 
+double CalmWalls::share_of_area(const std::vector<Probe>& probes,
+                                const std::vector<char>& is_wall) {
+  double all = 0, walls = 0;
+  for (size_t i = 0; i < probes.size(); ++i) {
+    all += probes[i].area;
+    if (is_wall[i]) walls += probes[i].area;
+  }
+  return all > 0 ? walls / all : 0;
+}
+
 /// Probes that are on no wall, in triangles that share a vertex with one that is.
 std::vector<size_t> CalmWalls::beside_walls(const std::vector<Probe>& probes,
                                             const std::vector<char>& is_wall) const {
@@ -190,6 +200,7 @@ std::shared_ptr<const CalmWalls> CalmWalls::find(const BakeScene& scene, double 
   const std::vector<char> is_wall = walls->project(probes);
   const std::vector<size_t> beside = walls->beside_walls(probes, is_wall);
   if (beside.empty()) return nullptr;
+  walls->area_share_ = share_of_area(probes, is_wall);
   walls->keep_normals(probes, is_wall);
   walls->keep_rim(probes, beside);
   return walls;
@@ -219,9 +230,10 @@ void CalmWalls::calm(const std::shared_ptr<const CalmWalls>& walls, SurfaceField
   const auto channels = static_cast<size_t>(field.channels);
   std::vector<float> about = walls->rim_values(field);
   field.calm = true;
-  field.amend = [walls, about = std::move(about), channels](std::span<const float> hidden,
-                                                            std::span<const TexelRun> places,
-                                                            float* values) {
+  const bool clear = field.clear_walls;
+  field.amend = [walls, about = std::move(about), channels, clear](std::span<const float> hidden,
+                                                                   std::span<const TexelRun> places,
+                                                                   float* values) {
     size_t sample = 0;
     std::array<float, 4> calm{};
     for (const TexelRun& place : places) {
@@ -233,6 +245,7 @@ void CalmWalls::calm(const std::shared_ptr<const CalmWalls>& walls, SurfaceField
           walls->mean(walls->on_target(place.at(i)), about, std::span(calm).first(channels));
         known = stays(place);
         for (size_t c = 0; c < channels; ++c) values[c] += share * (calm[c] - values[c]);
+        if (clear) values[channels - 1] = 0;
       }
     }
   };

@@ -26,6 +26,9 @@ class CalmWalls {
   /// it, for walls have the steps of a lattice. Unit. Cost: as `calm`.
   Vector3 normal(const SurfaceSample& sample, const Vector3& own) const;
 
+  /// Of the target's area, as far as points tell that are spread over it.
+  double area_share() const { return area_share_; }
+
   /// Whether nothing is seen of what a point of the target shows of the source, for it lies far
   /// within a wall. Requires: `shown` is of one sample.
   bool hides(const SurfacePoint& at, const SurfaceRun& shown) const;
@@ -44,6 +47,7 @@ class CalmWalls {
   struct Probe;
   static std::vector<Probe> probes_of(const BakeTarget& target);
   std::vector<char> project(std::vector<Probe>& probes) const;
+  static double share_of_area(const std::vector<Probe>& probes, const std::vector<char>& is_wall);
   std::vector<size_t> beside_walls(const std::vector<Probe>& probes,
                                    const std::vector<char>& is_wall) const;
   void keep_normals(const std::vector<Probe>& probes, const std::vector<char>& is_wall);
@@ -55,6 +59,7 @@ class CalmWalls {
 
   const BakeScene* scene_;
   double beyond_;
+  double area_share_ = 0;
   // Of points beside walls.
   std::vector<SurfaceRun> rim_;
   std::vector<Vector3> rim_points_;
