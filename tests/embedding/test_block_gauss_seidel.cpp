@@ -35,14 +35,15 @@ TEST_CASE(
   const Network network(icosphere(4), 1e-3);
   const SweepOrder& order = network.order;
   const Unknowns b = random_vector(network.size(), 1);
-  for (const bool forward : {true, false}) {
+  for (const Sweep direction : {Sweep::Forward, Sweep::Backward}) {
     Unknowns x = random_vector(network.size(), 2), other = x, rest(x.size());
-    sweep(network.matrix, SmallInverses{}, order, b.data(), x.data(), forward, 1);
-    sweep(network.matrix, SmallInverses{}, order, b.data(), other.data(), forward, 3);
+    sweep(network.matrix, SmallInverses{}, order, b.data(), x.data(), direction, 1);
+    sweep(network.matrix, SmallInverses{}, order, b.data(), other.data(), direction, 3);
     CHECK(x == other);
     residual(network.matrix, b.data(), x.data(), rest.data(), 1);
-    const auto last = forward ? at(order.first_row[at(order.blocks.back()) + 1]) - 1
-                              : at(order.first_row[at(order.blocks.front())]);
+    const auto last = direction == Sweep::Forward
+                          ? at(order.first_row[at(order.blocks.back()) + 1]) - 1
+                          : at(order.first_row[at(order.blocks.front())]);
     CHECK(std::abs(rest[2 * last]) < 1e-9);
     CHECK(std::abs(rest[2 * last + 1]) < 1e-9);
     CHECK(dot(rest, rest) > 1e-3 * dot(b, b));  // one sweep does not solve the others
@@ -55,7 +56,7 @@ TEST_CASE("sweep: inverses that are stored do as those made on the way") {
   invert(network.matrix.diagonal, inverses, 1);
   const Unknowns b = random_vector(network.size(), 1);
   Unknowns x(b.size(), 0.0), y = x;
-  sweep(network.matrix, SmallInverses{}, network.order, b.data(), x.data(), true, 1);
-  sweep(network.matrix, inverses, network.order, b.data(), y.data(), true, 1);
+  sweep(network.matrix, SmallInverses{}, network.order, b.data(), x.data(), Sweep::Forward, 1);
+  sweep(network.matrix, inverses, network.order, b.data(), y.data(), Sweep::Forward, 1);
   for (size_t i = 0; i < x.size(); ++i) CHECK(x[i] == Approx(y[i]).margin(1e-10));
 }

@@ -92,11 +92,14 @@ struct SmallInverses {};
   x[2 * row + 1] = i1 * s[1] - i01 * s[0];
 }
 
+enum class Sweep { Forward, Backward };
+
 /// Solves every row for its own unknowns, in the order or backwards. `inverse`: of the diagonal, or
 /// SmallInverses. Same bits for any number of threads.
 template <int N, class Inverses>
 void sweep(const BlockMatrix<N>& a, const Inverses& inverse, const SweepOrder& order,
-           const double* b, double* x, bool forward, int threads) {
+           const double* b, double* x, Sweep direction, int threads) {
+  const bool forward = direction == Sweep::Forward;
   const int colours = static_cast<int>(order.colour_start.size()) - 1;
   for (int n = 0; n < colours; ++n) {
     const int c = forward ? n : colours - 1 - n;

@@ -129,7 +129,8 @@ void Multigrid::cycle(size_t l) {
   }
   Level& coarse = levels_[l + 1];
   std::fill(level.x.begin(), level.x.end(), 0.0);
-  sweep(level.matrix, level.inverse, level.order, level.b.data(), level.x.data(), true, threads);
+  sweep(level.matrix, level.inverse, level.order, level.b.data(), level.x.data(), Sweep::Forward,
+        threads);
   residual(level.matrix, level.b.data(), level.x.data(), level.r.data(), threads);
   restrict_vector(level.prolongation, level.aggregates, level.r.data(), coarse.b.data(), threads);
   cycle(l + 1);
@@ -142,18 +143,19 @@ void Multigrid::cycle(size_t l) {
   }
   prolong_vector(level.prolongation, level.aggregates.of_row, coarse.x.data(), level.x.data(),
                  threads);
-  sweep(level.matrix, level.inverse, level.order, level.b.data(), level.x.data(), false, threads);
+  sweep(level.matrix, level.inverse, level.order, level.b.data(), level.x.data(), Sweep::Backward,
+        threads);
 }
 
 void Multigrid::apply(const Unknowns& b, Unknowns& x, Unknowns& rest) {
   std::fill(x.begin(), x.end(), 0.0);
-  sweep(matrix_, SmallInverses{}, order_, b.data(), x.data(), true, threads_);
+  sweep(matrix_, SmallInverses{}, order_, b.data(), x.data(), Sweep::Forward, threads_);
   residual(matrix_, b.data(), x.data(), rest.data(), threads_);
   Level& first = levels_.front();
   restrict_from_points(rows_, aggregates_, first.sites, rest.data(), first.b.data(), threads_);
   cycle(0);
   prolong_to_points(rows_, aggregates_, first.sites, first.x.data(), x.data(), threads_);
-  sweep(matrix_, SmallInverses{}, order_, b.data(), x.data(), false, threads_);
+  sweep(matrix_, SmallInverses{}, order_, b.data(), x.data(), Sweep::Backward, threads_);
 }
 
 }  // namespace sphparam

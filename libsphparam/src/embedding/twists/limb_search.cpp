@@ -29,20 +29,20 @@ Limb LimbSearch::next() {
 
 Limb LimbSearch::limb_with(const VertexLoop& loop) {
   mark(loop);
-  Limb limb = layers_beyond(loop, true);
+  Limb limb = layers_beyond(loop, Flank::Left);
   std::ranges::reverse(limb);
   limb.push_back(loop);
-  std::ranges::move(layers_beyond(loop, false), std::back_inserter(limb));
+  std::ranges::move(layers_beyond(loop, Flank::Right), std::back_inserter(limb));
   return limb;
 }
 
-std::vector<VertexLoop> LimbSearch::layers_beyond(const VertexLoop& loop, bool left) {
+std::vector<VertexLoop> LimbSearch::layers_beyond(const VertexLoop& loop, Flank flank) {
   std::vector<VertexLoop> layers;
   VertexLoop next;
   const auto enter = [&](Vertex v) {
     if (!used_[at(v)] && std::ranges::find(next, v) == next.end()) next.push_back(v);
   };
-  for_each_beside(topology_, loop, left, enter);
+  for_each_beside(topology_, loop, flank, enter);
   while (is_loop(next)) {
     mark(next);
     layers.push_back(std::exchange(next, {}));

@@ -22,7 +22,7 @@ class LimbSearch {
 
  private:
   Limb limb_with(const VertexLoop& loop);
-  std::vector<VertexLoop> layers_beyond(const VertexLoop& loop, bool left);
+  std::vector<VertexLoop> layers_beyond(const VertexLoop& loop, Flank flank);
   bool is_loop(VertexLoop& layer) const;
   void mark(const VertexLoop& layer);
 

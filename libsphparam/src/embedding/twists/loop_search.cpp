@@ -164,17 +164,17 @@ VertexLoop LoopSearch::closed_by(Halfedge h) const {
 }
 
 bool LoopSearch::goes_round(const VertexLoop& loop) {
-  return reaches_many(loop, true) && reaches_many(loop, false);
+  return reaches_many(loop, Flank::Left) && reaches_many(loop, Flank::Right);
 }
 
-/// Has it more than a few vertices on that side? A hub is as good as many.
-bool LoopSearch::reaches_many(const VertexLoop& loop, bool left) {
+/// Has it more than a few vertices on that flank? A hub is as good as many.
+bool LoopSearch::reaches_many(const VertexLoop& loop, Flank flank) {
   for (const Vertex v : loop) side_[at(v)] = 1;
   std::vector<Vertex> seen;
   const auto enter = [&](Vertex v) {
     if (std::exchange(side_[at(v)], 1) == 0) seen.push_back(v);
   };
-  for_each_beside(topology_, loop, left, enter);
+  for_each_beside(topology_, loop, flank, enter);
   bool hub = false;
   const int least = least_beyond(loop);
   for (size_t i = 0; i < seen.size() && std::ssize(seen) < least; ++i) {

@@ -11,6 +11,9 @@ namespace sphparam {
 /// A closed path of edges: its vertices in order.
 using VertexLoop = std::vector<Vertex>;
 
+/// Of a loop, as its vertices run.
+enum class Flank { Left, Right };
+
 /// Finds loops of a few edges that go round limbs. Our own.
 class LoopSearch {
  public:
@@ -40,7 +43,7 @@ class LoopSearch {
   std::vector<std::pair<int, Halfedge>> closing_edges(int most_edges) const;
   VertexLoop closed_by(Halfedge h) const;
   bool goes_round(const VertexLoop& loop);
-  bool reaches_many(const VertexLoop& loop, bool left);
+  bool reaches_many(const VertexLoop& loop, Flank flank);
 
   /// How a vertex was reached from the middle of the ball.
   struct Reached {
@@ -62,14 +65,15 @@ class LoopSearch {
   std::vector<size_t> layer_ends_;  // in the ball, of those without hubs
 };
 
-/// Visits the vertices next to a loop on one side, one after the other.
+/// Visits the vertices next to a loop on one flank, one after the other.
 template <class Visit>
-void for_each_beside(const Topology& topology, const VertexLoop& loop, bool left,
+void for_each_beside(const Topology& topology, const VertexLoop& loop, Flank flank,
                      const Visit& visit) {
   const size_t n = loop.size();
   for (size_t i = 0; i < n; ++i) {
     const Vertex next = loop[(i + 1) % n], previous = loop[(i + n - 1) % n];
-    const Vertex from = left ? next : previous, to = left ? previous : next;
+    const auto [from, to] =
+        flank == Flank::Left ? std::pair(next, previous) : std::pair(previous, next);
     Halfedge h = topology.rotate_ccw(topology.find_halfedge(loop[i], from));
     for (; topology.target(h) != to; h = topology.rotate_ccw(h)) visit(topology.target(h));
   }
