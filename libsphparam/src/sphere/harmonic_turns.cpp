@@ -65,11 +65,11 @@ Eigen::MatrixXd HarmonicTurns::about_y(int l, double angle) const {
   return tilt(l) * rows;
 }
 
-Functions HarmonicTurns::tilted(Functions c, bool back) const {
+Functions HarmonicTurns::tilted(Functions c, Way way) const {
   for (int l = 1; l <= degree(); ++l) {
     auto rows = c.middleRows(harmonic_index(l, -l), 2 * l + 1);
     const Eigen::MatrixXd before = rows;
-    if (back)
+    if (way == Way::Back)
       rows = tilt(l).transpose() * before;
     else
       rows = tilt(l) * before;
@@ -81,11 +81,11 @@ Functions HarmonicTurns::tilted(Functions c, bool back) const {
 // turns by that angle, which are tilt · (a right angle about z) · tilt⁻¹.
 Functions HarmonicTurns::generator(int axis, const Functions& coefficients) const {
   if (axis == 2) return generator_about_z(coefficients, degree());
-  Functions c = tilted(coefficients, true);
-  if (axis == 0) c = tilted(quarter_about_z(std::move(c), degree(), -1), false);
-  if (axis == 1) return tilted(generator_about_z(c, degree()), false);
+  Functions c = tilted(coefficients, Way::Back);
+  if (axis == 0) c = tilted(quarter_about_z(std::move(c), degree(), -1), Way::There);
+  if (axis == 1) return tilted(generator_about_z(c, degree()), Way::There);
   c = generator_about_z(c, degree());
-  return tilted(quarter_about_z(tilted(std::move(c), true), degree(), 1), false);
+  return tilted(quarter_about_z(tilted(std::move(c), Way::Back), degree(), 1), Way::There);
 }
 
 }  // namespace sphparam

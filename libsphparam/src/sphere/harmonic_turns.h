@@ -23,7 +23,8 @@ class HarmonicTurns {
   Functions generator(int axis, const Functions& coefficients) const;
 
  private:
-  Functions tilted(Functions c, bool back) const;
+  enum class Way { There, Back };
+  Functions tilted(Functions c, Way way) const;
 
   std::vector<Eigen::MatrixXd> tilts_;
 };
