@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdio>
@@ -195,6 +196,23 @@ TEST_CASE("remesh: what faces have is in no table, which is told") {
   };
   CHECK_THAT(told("all"), Contains("not carried: flux and part of faces: rows are of vertices"));
   CHECK_THAT(told("heat"), !Contains("not carried"));
+}
+
+TEST_CASE("remesh: --csv has tabs in a .tsv, and no name of another kind of table") {
+  const Mapped mapped;
+  const std::string commas = mapped.folder / "t.csv", tabs = mapped.folder / "t.tsv",
+                    sheet = mapped.folder / "t.xlsx";
+  REQUIRE(mapped.remesh({"--grid", "ico:1", "--csv", commas}).code == 0);
+  REQUIRE(mapped.remesh({"--grid", "ico:1", "--csv", tabs}).code == 0);
+  std::string expected = bytes_of(commas);
+  std::ranges::replace(expected, ',', '\t');
+  CHECK(bytes_of(tabs) == expected);
+  for (const Ended& ended :
+       {mapped.remesh({"--grid", "ico:1", "--csv", sheet}),
+        sphparam_program({"spharm", mapped.path, "--degree", "2", "--csv", sheet})}) {
+    CHECK(ended.code == 2);
+    CHECK_THAT(ended.err, Contains("--csv: the table is written as .csv or .tsv, not as .xlsx"));
+  }
 }
 
 TEST_CASE("remesh: --degrees has longitude and latitude in the table of --csv") {

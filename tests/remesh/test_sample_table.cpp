@@ -35,6 +35,15 @@ TEST_CASE("sample table: a row a vertex, of its number, place, position and prop
         "5,0,3.141592653589793,0,0,-0.5,5,12\n");
 }
 
+TEST_CASE("sample table: with tabs between, commas in names need no quotes but have them") {
+  const std::string text =
+      sample_table(octahedron(), TableAngles::Radians, {{0, 1, 0, 0, 0, 0}}, '\t');
+  CHECK_THAT(
+      text, Catch::StartsWith("vertex\ttheta\tphi\tx\ty\tz\t\"thick, \"\"mm\"\"\"\tparcel\tfiller\n"
+                              "0\t0\t1.5707963267948966\t0.5\t0\t0\t0.1\t7\t0\n"
+                              "1\t3.141592653589793\t1.5707963267948966\t-0.5\t0\t0\t1\t8\t1\n"));
+}
+
 TEST_CASE("sample table: in degrees longitude goes from -180 to 180 and latitude north") {
   const std::string text = sample_table(octahedron(), TableAngles::Degrees);
   CHECK_THAT(text, Catch::StartsWith("vertex,lon,lat,x,y,z,"));

@@ -349,6 +349,9 @@ TEST_CASE("harmonics_record: coefficients come back exactly, as JSON and as a ta
   const std::string table = to_csv(expansion);
   CHECK_THAT(table, StartsWith("l,m,x,y,z\n0,0,"));
   CHECK(line_count(table) == 1 + 9);
+  std::string tabs = table;
+  std::ranges::replace(tabs, ',', '\t');
+  CHECK(to_csv(expansion, '\t') == tabs);
   const std::size_t row = table.find("\n1,0,");
   REQUIRE(row != std::string::npos);
   const std::string line = table.substr(row + 1, table.find('\n', row + 1) - row - 1);

@@ -1,6 +1,8 @@
 #include "arguments/mesh_names.h"
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 #include "console/exit_codes.h"
 #include "number_text.h"
@@ -17,6 +19,14 @@ void require_mesh_name(const std::string& option, const std::string& what, const
   const std::string others = more.empty() ? "" : joined(more) + ", ";
   throw UsageMistake(option + ": " + what + " is written as " + others + written_extensions() +
                      ", .gz after it for gzip, not as " + output_name(path));
+}
+
+char table_separator(const std::string& option, const std::string& path) {
+  constexpr std::array<std::string_view, 5> others = {".json", ".xlsx", ".xls", ".ods", ".html"};
+  const std::string extension = is_stream(path) ? "" : extension_of(path);
+  if (std::ranges::count(others, extension) > 0)
+    throw UsageMistake(option + ": the table is written as .csv or .tsv, not as " + extension);
+  return extension == ".tsv" ? '\t' : ',';
 }
 
 }  // namespace sphparam::cli

@@ -12,4 +12,8 @@ namespace sphparam::cli {
 void require_mesh_name(const std::string& option, const std::string& what, const std::string& path,
                        const Words& more = {});
 
+/// What stands between the columns of a table: a tab in a .tsv, else a comma. Refuses names of what
+/// is no such table: .json, .xlsx. Throws: UsageMistake.
+char table_separator(const std::string& option, const std::string& path);
+
 }  // namespace sphparam::cli

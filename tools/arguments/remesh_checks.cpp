@@ -104,6 +104,7 @@ void check_outputs(const RemeshArguments& arguments) {
       images_asked_for(arguments).empty()) {
     throw UsageMistake("nothing to write: give -o, --write-data, --geometry-image or --csv");
   }
+  table_separator("--csv", arguments.csv);
   if (arguments.degrees && arguments.csv.empty()) {
     throw UsageMistake("--degrees is for --csv only");
   }

@@ -1,10 +1,10 @@
 // `sphparam batch status`, `retry`, `table` and `report`: what became of a batch, from its files.
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <string_view>
 
+#include "arguments/mesh_names.h"
 #include "arguments/numbers.h"
 #include "commands/batch.h"
 #include "console/places.h"
@@ -121,17 +121,8 @@ int run_retry(ResultArguments& arguments) try {
   throw UsageMistake(error.what());
 }
 
-/// Commas for what is no table by its name, but for the names of other kinds.
-char separator_of(const std::string& path) {
-  constexpr std::array<std::string_view, 5> others = {".json", ".xlsx", ".xls", ".ods", ".html"};
-  const std::string extension = is_stream(path) ? "" : extension_of(path);
-  if (std::ranges::count(others, extension) > 0)
-    throw UsageMistake("-o: the table is written as .csv or .tsv, not as " + extension);
-  return extension == ".tsv" ? '\t' : ',';
-}
-
 int run_table(ResultArguments& arguments) {
-  const char separator = separator_of(arguments.output);
+  const char separator = table_separator("-o", arguments.output);
   Session session(arguments);
   require_not_of_batch("-o", arguments.folder, arguments.output);
   check_places({{"-o", arguments.output}});

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "arguments/mesh_names.h"
 #include "commands/command.h"
 #include "commands/sources.h"
 #include "console/places.h"
@@ -199,7 +200,8 @@ std::string table_of(const RemeshArguments& arguments, const MappedMesh& mapped,
                                         : ": 1 in the column filler; --holes drop leaves them "
                                           "out"));
   }
-  return sample_table(made, arguments.degrees ? TableAngles::Degrees : TableAngles::Radians, holes);
+  return sample_table(made, arguments.degrees ? TableAngles::Degrees : TableAngles::Radians, holes,
+                      table_separator("--csv", arguments.csv));
 }
 
 /// Files of --data, beside meshes or as they were named.

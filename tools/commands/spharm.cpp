@@ -209,6 +209,7 @@ void require_sensible(const SpharmArguments& arguments) {
   require_alignment(arguments);
   require_grid(arguments);
   require_mesh_name("--reconstruct", "the surface", arguments.reconstruction);
+  table_separator("--csv", arguments.csv);
   check_places({{"--json", arguments.json},
                 {"--csv", arguments.csv},
                 {"--shadr", arguments.shadr},
@@ -310,7 +311,8 @@ int run_spharm(SpharmArguments& arguments) {
   session.add_report([&] { return to_json(expansion, arguments.input, mapped.provenance()); });
   if (expansion.fit.quadrature_change.value_or(0) > settled_quadrature)
     session.console.warning("the integral has not settled with the most nodes that there are");
-  if (!arguments.csv.empty()) session.files.add(arguments.csv, to_csv(expansion));
+  if (!arguments.csv.empty())
+    session.files.add(arguments.csv, to_csv(expansion, table_separator("--csv", arguments.csv)));
   if (!arguments.shadr.empty()) session.files.add(arguments.shadr, to_shadr(expansion));
   if (!arguments.coef.empty())
     session.files.add(arguments.coef, to_coef(expansion.fit.coefficients));
@@ -356,7 +358,8 @@ void declare_options(Declaration& command, SpharmArguments& arguments) {
             "With --align: half turns that bring coefficients nearest to those of this .coef "
             "(default: by skewness)")
       .json(arguments, "Coefficients and figures")
-      .text("--csv", arguments.csv, "FILE", "Coefficients, a line each; - for standard output")
+      .text("--csv", arguments.csv, "FILE",
+            "Coefficients, a line each, tabs between in a .tsv; - for standard output")
       .written()
       .text("--shadr", arguments.shadr, "FILE",
             "4pi-normalised C and S of the radius as the PDS has them")

@@ -259,17 +259,17 @@ std::string to_json(const HarmonicExpansion& expansion, const std::string& mesh,
   return text_of(json, 1);
 }
 
-std::string to_csv(const HarmonicExpansion& expansion) {
-  std::string text = "l,m";
+std::string to_csv(const HarmonicExpansion& expansion, char separator) {
+  std::string text = std::string("l") + separator + "m";
   const Functions coefficients = expansion.told_coefficients();
   for (const std::string& name : expansion.functions)
-    text += "," + csv_field(name + (is_geodetic(expansion) ? " (4pi)" : ""));
+    text += separator + csv_field(name + (is_geodetic(expansion) ? " (4pi)" : ""));
   text += "\n";
   for (int l = 0; l <= expansion.degree(); ++l) {
     for (int m = -l; m <= l; ++m) {
-      text += std::to_string(l) + "," + std::to_string(m);
+      text += std::to_string(l) + separator + std::to_string(m);
       for (Eigen::Index k = 0; k < coefficients.cols(); ++k) {
-        text += ",";
+        text += separator;
         text += shortest(coefficients(harmonic_index(l, m), k));
       }
       text += "\n";

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <charconv>
 #include <numbers>
 
@@ -25,15 +26,17 @@ SphericalCoordinates longitude_and_latitude(SphericalCoordinates place) {
 
 }  // namespace
 
-std::string sample_table(const MappedMesh& mesh, TableAngles angles, const TableHoles& holes) {
+std::string sample_table(const MappedMesh& mesh, TableAngles angles, const TableHoles& holes,
+                         char separator) {
   const MeshFile& file = mesh.file();
   constexpr size_t expected_bytes = 100;  // of a row
   const bool in_degrees = angles == TableAngles::Degrees;
   std::string text = in_degrees ? "vertex,lon,lat,x,y,z" : "vertex,theta,phi,x,y,z";
+  std::ranges::replace(text, ',', separator);
   for (const Property& property : file.vertex_properties)
-    text.append(",").append(csv_field(property.name));
+    text.append(1, separator).append(csv_field(property.name));
   const bool marked = !holes.in_hole.empty() && !holes.left_out;
-  if (marked) text.append(",").append(filler_property);
+  if (marked) text.append(1, separator).append(filler_property);
   text += "\n";
   const auto count = static_cast<size_t>(file.mesh.vertex_count());
   text.reserve(text.size() + expected_bytes * count);
@@ -46,14 +49,14 @@ std::string sample_table(const MappedMesh& mesh, TableAngles angles, const Table
     put(text, row);
     for (const double x : {place.theta, place.phi, file.mesh.positions(row, 0),
                            file.mesh.positions(row, 1), file.mesh.positions(row, 2)}) {
-      text += ',';
+      text += separator;
       put(text, x);
     }
     for (const Property& property : file.vertex_properties) {
-      text += ',';
+      text += separator;
       put(text, property.values[v]);
     }
-    if (marked) text += in_hole ? ",1" : ",0";
+    if (marked) text.append(1, separator).append(in_hole ? "1" : "0");
     text += '\n';
   }
   return text;

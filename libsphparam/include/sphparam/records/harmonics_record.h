@@ -23,9 +23,9 @@ HarmonicExpansion read_harmonics(const std::string& path);
 /// The same from text in memory; `name` is for messages, and tells which of both it is.
 HarmonicExpansion parse_harmonics(std::string_view text, const std::string& name);
 
-/// One line a coefficient: l, m, then one number a function; a header line first. Numbers come back
-/// exactly. Names end with " (4pi)" where coefficients are 4π-normalised.
-std::string to_csv(const HarmonicExpansion& expansion);
+/// One line a coefficient: l, m, then one number a function; a header line first, commas (or tabs)
+/// between. Numbers come back exactly. Names end with " (4pi)" where coefficients are 4π-normalised.
+std::string to_csv(const HarmonicExpansion& expansion, char separator = ',');
 
 /// The coefficients of a function as a table of spherical harmonics in ASCII (SHADR of the PDS),
 /// always 4π-normalised: a header of reference radius, GM and its uncertainty (0), degree, order,

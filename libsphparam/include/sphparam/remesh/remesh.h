@@ -103,9 +103,9 @@ struct TableHoles {
   bool left_out = false;     // their rows; else a last column "filler" has 1 in them
 };
 
-/// Comma-separated values, a row a vertex: its number, theta and phi (or lon and lat), x y z, and
-/// every property of vertices; shortest text that reads back the same.
+/// Values separated by commas (or tabs), a row a vertex: its number, theta and phi (or lon and
+/// lat), x y z, and every property of vertices; shortest text that reads back the same.
 std::string sample_table(const MappedMesh& mesh, TableAngles angles = TableAngles::Radians,
-                         const TableHoles& holes = {});
+                         const TableHoles& holes = {}, char separator = ',');
 
 }  // namespace sphparam
