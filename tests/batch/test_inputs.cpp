@@ -154,7 +154,11 @@ TEST_CASE("inputs: a table has ids and columns of its own") {
   tree.write("t.csv", "id,path\nfirst,a.ply,too much\n");
   CHECK_THROWS_WITH(tree.ids("t.csv"), Contains("t.csv:2: 3 fields, the header has 2"));
   tree.write("t.csv", "id,file\nfirst,a.ply\n");
-  CHECK_THROWS_WITH(tree.ids("t.csv"), Contains("no column `path`"));
+  CHECK_THROWS_WITH(tree.ids("t.csv"), Contains("no column `path`") && !Contains("separated"));
+  tree.write("t.csv", "id;path\nfirst;a.ply\n");
+  CHECK_THROWS_WITH(tree.ids("t.csv"),
+                    Contains("no column `path` among id;path: columns are separated by commas, or "
+                             "by tabs in a .tsv"));
   tree.write("t.csv", "path\n\"a.ply\n");
   CHECK_THROWS_WITH(tree.ids("t.csv"), Contains("quote that does not end"));
 }

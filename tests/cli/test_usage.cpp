@@ -165,6 +165,37 @@ TEST_CASE("program: a mistyped subcommand or option is answered with the one tha
   CHECK_THAT(nonsense.err, !Contains("did you mean"));
 }
 
+TEST_CASE("program: what is meant for other subcommands is answered with what takes it") {
+  const Folder folder;
+  const std::string mesh = folder / "a b.off", scans = folder / "my scans";
+  write_bytes(mesh, "OFF\n");
+  fs::create_directory(scans);
+  const auto told = [](const std::vector<std::string>& words, int code) {
+    const Ended ended = sphparam_program(words);
+    CHECK(ended.code == code);
+    return ended.err;
+  };
+  CHECK_THAT(told({"map", scans, "-o", "x.ply"}, 3),
+             Contains("my scans: is a directory: `sphparam survey '" + scans +
+                      "' -o survey.html` looks at every mesh in it, `sphparam batch plan '" +
+                      scans + "' -o WORK -- map` plans the maps of all"));
+  CHECK_THAT(told({"group", scans, "-o", folder / "g"}, 3),
+             Contains("a group takes files, as in `sphparam group '" + scans + "/*.ply' -o OUT`"));
+  CHECK_THAT(told({"survey", mesh, "-o", folder / "s.html"}, 3),
+             Contains("is no folder: `sphparam info '" + mesh + "'` tells of one mesh"));
+  CHECK_THAT(told({"map", mesh, "c.off", "-o", "x.ply"}, 2),
+             Contains("unexpected argument c.off; one mesh is mapped: `sphparam batch plan FILES"));
+  CHECK_THAT(told({"batch", "plan", scans, "-o", folder / "w", "map", "--repair"}, 2),
+             Contains("unknown option --repair; the subcommand that is to run and its options come "
+                      "last, behind --: `-- map --repair`"));
+  CHECK_THAT(told({"map", mesh, "-o", "x.ply", "--lambda", "0,5"}, 2),
+             Contains("--lambda: expected a number from 1e-10 to 1e6, with a point: 0.5\n"));
+  CHECK_THAT(told({"map", mesh, "-o", "x.ply", "--lambda", "0,5,5"}, 2),
+             Contains("--lambda: expected a number from 1e-10 to 1e6\n"));
+  CHECK_THAT(told({"batch", "run", scans}, 3),
+             Contains("`sphparam batch plan … -o '" + scans + "' -- map` makes one"));
+}
+
 TEST_CASE("program: command lines that make no sense end with code 2 and touch nothing") {
   const std::vector<std::vector<std::string>> senseless = {
       {"map"},

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <limits>
 #include <optional>
@@ -42,7 +43,15 @@ std::string complaint_of_number(const std::string& text, const Range<Number>& ra
   const auto [stop, error] = std::from_chars(digits.data(), end, value);
   bool good = error == std::errc{} && stop == end && range.holds(value);
   if constexpr (std::is_integral_v<Number>) good &= digits == std::to_string(value);
-  return good ? "" : "expected a number from " + range.text();
+  if (good) return "";
+  std::string complaint = "expected a number from " + range.text();
+  if constexpr (std::is_floating_point_v<Number>) {
+    std::string pointed = text;
+    std::replace(pointed.begin(), pointed.end(), ',', '.');
+    if (pointed != text && complaint_of_number(pointed, range).empty())
+      complaint += ", with a point: " + pointed;
+  }
+  return complaint;
 }
 
 /// 17 and 23 of "17,23".

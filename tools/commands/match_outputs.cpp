@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "commands/command.h"
+#include "io/shell_word.h"
 #include "reports/told_losses.h"
 #include "sphparam/correspondence/matched_files.h"
 #include "sphparam/gltf/morph.h"
@@ -105,8 +106,8 @@ void tell_absent_values(const MatchArguments& arguments, const MappedMesh& secon
   session.warn(
       {"--write-values: no vertex of " + display_name(arguments.second) +
        " carries a value or a colour, so nothing is carried over; a texture: sphparam bake " +
-       arguments.second + " --texture, then sphparam export " + arguments.output +
-       " --image with what it made"});
+       shell_file(arguments.second) + " --texture, then sphparam export " +
+       shell_file(arguments.output) + " --image with what it made"});
 }
 
 }  // namespace sphparam::cli

@@ -1,6 +1,7 @@
 #include "console/mending_advice.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "io/shell_word.h"
 #include "sphparam/io/paths.h"
@@ -78,6 +79,20 @@ std::string advice_for(const Words& words, const MeshRefusal& refusal) {
   return repair_advice(refusal, typed(rest, options_line(refusal.trial()->options)));
 }
 
+namespace {
+
+/// What takes all files of a folder, where one was to be read.
+std::string advice_for_folder(const Words& words, const std::string& folder) {
+  if (words.front() == "group")
+    return ": a group takes files, as in `sphparam group " +
+           shell_word((std::filesystem::path(folder) / "*.ply").string()) + " -o OUT`";
+  return ": `sphparam survey " + shell_file(folder) +
+         " -o survey.html` looks at every mesh in it, `sphparam batch plan " + shell_file(folder) +
+         " -o WORK -- map` plans the maps of all";
+}
+
+}  // namespace
+
 std::string told_refusal(const Words& words, const std::string& refusal) {
   const std::string map = "`sphparam map ";
   const size_t at = refusal.find(map + "--repair");
@@ -85,6 +100,8 @@ std::string told_refusal(const Words& words, const std::string& refusal) {
     return refusal.starts_with(word + ":") || refusal.starts_with(display_name(word) + ":");
   };
   const auto file = std::ranges::find_if(words, is_refused);
+  if (refusal.ends_with(": is a directory") && file != words.end())
+    return refusal + advice_for_folder(words, *file);
   if (at == std::string::npos || file == words.end()) return refusal;
   std::string told = refusal;
   told.insert(told.find('`', at + 1), " -o mended.sph.ply");

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bake/field_registry.h"
+#include "sphparam/io/mesh_reader.h"
 
 namespace sphparam::cli {
 
@@ -67,6 +68,22 @@ std::string hint_of_image(const CLI::App& command, const std::string& word) {
   return command.get_name() == "bake" && is_kind ? "; --map " + word + " bakes it" : "";
 }
 
+/// Where an option is of what a batch is to run, and stands before its --.
+std::string hint_of_plan(const CLI::App& command, const std::string& option) {
+  return command.get_name() == "plan"
+             ? "; the subcommand that is to run and its options come last, behind --: `-- map " +
+                   option + "`"
+             : "";
+}
+
+/// Where `map` is given several meshes, as a shell makes them of a pattern.
+std::string hint_of_many(const CLI::App& command, const std::string& word) {
+  return command.get_name() == "map" && is_mesh_name(word)
+             ? "; one mesh is mapped: `sphparam batch plan FILES -o WORK -- map` plans the maps of "
+               "many"
+             : "";
+}
+
 /// The subcommand that was asked for, of a subcommand where that has some; else the program.
 const CLI::App& chosen_command(const CLI::App& program) {
   const std::vector<CLI::App*> chosen = program.get_subcommands();
@@ -97,11 +114,13 @@ std::string explain(const CLI::App& program, const CLI::ParseError& error) {
       const std::string name = word.substr(0, word.find('='));
       const std::string now = present_spelling(app.get_name(), name);
       if (!now.empty()) return now;
-      return "unknown option " + name + did_you_mean(name, option_names(app));
+      const std::string meant = did_you_mean(name, option_names(app));
+      return "unknown option " + name + (meant.empty() ? hint_of_plan(app, name) : meant);
     }
     if (wants_subcommand)
       return "unknown subcommand " + word + did_you_mean(word, command_names(app));
-    if (nothing_else) return "unexpected argument " + word + hint_of_image(app, word);
+    if (nothing_else)
+      return "unexpected argument " + word + hint_of_image(app, word) + hint_of_many(app, word);
   }
   return error.what() + hint_of_json(app, error) + hint_of_rename(app, error);
 }

@@ -27,6 +27,12 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t told_at_most = 5;
 
+/// Where a header of one column has what other programs put between columns.
+std::string advice_on_separators(const std::vector<std::string>& header) {
+  const bool others = header.size() == 1 && header[0].find_first_of(";\t,") != std::string::npos;
+  return others ? ": columns are separated by commas, or by tabs in a .tsv" : "";
+}
+
 std::string whole_path(const fs::path& path) {
   return fs::absolute(path).lexically_normal().string();
 }
@@ -144,7 +150,7 @@ class Finder {
     const auto path = std::ranges::find(table.header, "path");
     if (path == table.header.end())
       throw BatchInputError(display_name(place) + ": no column `path` among " +
-                            joined(table.header));
+                            joined(table.header) + advice_on_separators(table.header));
     for (const std::string& name : table.header) {
       const bool known = name == "path" || name == "id" || std::ranges::count(columns_, name) > 0;
       if (!known) columns_.push_back(name);

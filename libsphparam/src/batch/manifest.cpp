@@ -8,6 +8,7 @@
 #include "batch/record.h"
 #include "batch/tables.h"
 #include "io/files/file_bytes.h"
+#include "io/shell_word.h"
 #include "parsed_number.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/safe_file.h"
@@ -166,8 +167,8 @@ BatchPlan load_plan(const std::string& folder, const std::string& name) {
     const std::string latest = (fs::path(folder) / "plan").string();
     std::error_code hidden;
     if (!fs::is_regular_file(latest, hidden))
-      throw ReadError(folder, "no batch in this folder; `sphparam batch plan … -o " + folder +
-                                  " -- map` makes one");
+      throw ReadError(folder, "no batch in this folder; `sphparam batch plan … -o " +
+                                  shell_file(folder) + " -- map` makes one");
     wanted = all_of(latest);
     while (wanted.ends_with('\n')) wanted.pop_back();
   }

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <set>
 
+#include "io/shell_word.h"
 #include "sphparam/errors.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/paths.h"
@@ -36,6 +37,9 @@ class Search {
     std::error_code error;
     root_ = fs::canonical(folder_, error);
     if (error) throw ReadError(folder, error.message());
+    if (!fs::is_directory(root_, error))
+      throw ReadError(folder,
+                      "is no folder: `sphparam info " + shell_file(folder) + "` tells of one mesh");
   }
 
   std::vector<std::string> run() {
