@@ -44,6 +44,14 @@ struct Brain {
   }
 };
 
+/// The mesh behind two vertices that no face uses: 0 and 1.
+TriangleMesh behind_two_unused(const TriangleMesh& mesh) {
+  TriangleMesh result{Points::Constant(mesh.vertex_count() + 2, 3, 9), mesh.triangles};
+  result.positions.bottomRows(mesh.vertex_count()) = mesh.positions;
+  result.triangles.array() += 2;
+  return result;
+}
+
 }  // namespace
 
 TEST_CASE("data: a map carries it as properties, and a remesh of that writes it beside a surface") {
@@ -266,6 +274,27 @@ TEST_CASE("data: a sphere of a mended mesh is told, and what writes that mesh") 
                                folder / "a.sph.ply"})
                  .err,
              !Contains("no file holds"));
+}
+
+TEST_CASE(
+    "data: a sphere without the vertices that no face uses is told, and what writes its mesh") {
+  const Folder folder;
+  const std::string mesh = folder / "a.obj", sphere = folder / "s.obj", written = folder / "m.obj";
+  write_bytes(mesh, obj_text(behind_two_unused(icosphere(1))));
+  const Ended map = sphparam_program({"map", mesh, "--write-sphere", sphere});
+  REQUIRE(map.code == 0);
+  const std::string dropped = "dropped 2 vertices that no face uses: vertices 0, 1\n";
+  CHECK_THAT(map.err, Contains("s.obj: its vertices are not the rows of a.obj: " + dropped) &&
+                          Contains("s.obj: is of the mesh as it was mapped, which no file holds: `"
+                                   "sphparam repair " +
+                                   mesh + " --repair=unused -o MENDED` writes it"));
+  const Ended beside =
+      sphparam_program({"map", mesh, "--write-sphere", sphere, "-o", folder / "a.sph.ply"});
+  CHECK_THAT(beside.err, Contains("rows of a.obj: " + dropped) && !Contains("no file holds"));
+  const Ended repair = sphparam_program({"repair", mesh, "--repair=unused", "-o", written});
+  CHECK_THAT(repair.err, Contains("  " + dropped));
+  CHECK(read_mesh(written).mesh.positions == icosphere(1).positions);
+  CHECK(read_mesh(sphere).mesh.triangles == read_mesh(written).mesh.triangles);
 }
 
 TEST_CASE("data: a sphere off the origin is told wherever one is taken") {

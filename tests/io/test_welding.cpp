@@ -116,7 +116,12 @@ TEST_CASE("welding: a closed mesh is never welded, an open one is, both are note
   const MeshFile both = prepare_for_mapping(
       read("v 7 7 7\nv 0 0 0\nv 1 0 0\nv 0 0 0\nv 0 1 0\nf 2 3 5\nf 4 5 3\n", "a.obj"), &notes);
   CHECK(values_of(both.find_vertex_property("source_vertex")) == std::vector<double>{1, 2, 4});
-  CHECK(notes.size() == 3);
+  REQUIRE(notes.size() == 3);
+  CHECK(notes[1] ==
+        "welded 1 vertex onto others of the same position: the faces as indexed are not closed");
+  CHECK(notes[2] == "dropped 1 vertex that no face uses: vertices 0");
+  CHECK(renumberings_among({"a reader's", notes[1], notes[2]}) ==
+        std::vector<std::string>{notes[1], notes[2]});
 }
 
 TEST_CASE("welding: where copies have several colours, corners keep their own") {

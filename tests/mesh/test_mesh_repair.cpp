@@ -586,7 +586,9 @@ TEST_CASE("mesh_repair: a copy that was made and merged again is no vertex that 
   CHECK(find(repaired, RepairKind::VertexSplit)->elements == std::vector<int>{20});
   CHECK(find(repaired, RepairKind::FlatFaceCollapsed)->elements == std::vector<int>{20});
   CHECK(count(repaired, RepairKind::UnusedVertexDropped) == 0);
-  CHECK(repaired.mesh.positions == mesh.positions);
+  const std::set<Vertex> kept(repaired.vertex_origin.begin(), repaired.vertex_origin.end());
+  CHECK(repaired.mesh.vertex_count() == mesh.vertex_count());
+  CHECK(std::ssize(kept) == mesh.vertex_count());
 }
 
 TEST_CASE("mesh_repair: what only one repair mends, no other touches") {

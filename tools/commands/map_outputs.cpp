@@ -8,6 +8,7 @@
 
 #include "arguments/part_files.h"
 #include "console/places.h"
+#include "io/polygons/welding.h"
 #include "io/shell_word.h"
 #include "number_text.h"
 #include "report/plots.h"
@@ -92,11 +93,18 @@ void add_sphere(const std::string& path, const MapArguments& arguments, const Ma
 
 /// A sphere of other vertices than the file's fits none that is there, but that of -o.
 void tell_whose_sphere(const MapArguments& arguments, const MapOutcome& outcome, Session& session) {
-  if (outcome.source.repairs.empty() || !arguments.output.empty()) return;
-  session.console.say("  " + output_name(arguments.sphere) +
-                      ": is of the mended mesh, which no file holds: `sphparam repair " +
-                      shell_file(arguments.input) + typed_again(arguments.repair) +
-                      " -o MENDED` writes it");
+  const bool is_mended = !outcome.source.repairs.empty();
+  const std::vector<std::string> renumbered = renumberings_among(outcome.source.notes);
+  const auto say = [&](const std::string& words) {
+    session.console.say("  " + output_name(arguments.sphere) + ": " + words);
+  };
+  if (!is_mended && !renumbered.empty())
+    say("its vertices are not the rows of " + display_name(arguments.input) + ": " +
+        joined(renumbered, "; "));
+  if (!arguments.output.empty() || (!is_mended && renumbered.empty())) return;
+  say("is of the " + std::string(is_mended ? "mended mesh" : "mesh as it was mapped") +
+      ", which no file holds: `sphparam repair " + shell_file(arguments.input) +
+      (is_mended ? typed_again(arguments.repair) : " --repair=unused") + " -o MENDED` writes it");
 }
 
 void add_plots(const std::string& folder, const std::string& name, const Distortion& distortion,

@@ -12,6 +12,7 @@
 #include "commands/data_files.h"
 #include "console/places.h"
 #include "io/inspected_source.h"
+#include "io/polygons/welding.h"
 #include "io/shell_word.h"
 #include "reports/told_losses.h"
 #include "reports/told_repairs.h"
@@ -92,6 +93,7 @@ int run_repair(RepairCommandArguments& arguments) {
   session.hold_signals();
   session.console.clear_progress();
   tell_losses(source, session.console);
+  for (const std::string& note : renumberings_among(given.notes)) session.console.say("  " + note);
   tell_repairs(source, session.console);
   std::vector<std::string> losses;
   const MeshFile file = written_as_mended(source, losses);

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <numeric>
+#include <string_view>
 
 #include "io/attributes/corner_colours.h"
 #include "io/polygons/distinct_rows.h"
+#include "mesh/defect_places.h"
+#include "number_text.h"
 #include "sphparam/io/file_numbers.h"
 
 // Both operations give every vertex a new id and keep one old vertex for every new id. Attributes
@@ -15,6 +18,7 @@ namespace sphparam {
 namespace {
 
 constexpr const char* source_vertex = "source_vertex";
+constexpr std::string_view welded_note = "welded ", dropped_note = "dropped ";
 
 struct Renumbering {
   std::vector<int> new_vertex;  // of each old vertex
@@ -152,6 +156,22 @@ bool has_boundary(const Triangles& triangles, Eigen::Index vertex_count) {
   return false;
 }
 
+/// "2 vertices that no face uses: vertices 4, 17", by their numbers in the file; empty: there is
+/// none.
+std::string words_of_unused(const MeshFile& file) {
+  constexpr std::size_t most_named = 10;
+  std::vector<char> used(static_cast<std::size_t>(file.mesh.vertex_count()), 0);
+  for (const int v : file.mesh.triangles.reshaped()) used[static_cast<std::size_t>(v)] = 1;
+  const long count = std::ranges::count(used, 0);
+  if (count == 0) return {};
+  const FileNumbers numbers(file);
+  std::vector<int> named;
+  for (std::size_t v = 0; v < used.size() && named.size() < most_named; ++v)
+    if (!used[v]) named.push_back(static_cast<int>(numbers.number(static_cast<Vertex>(v))));
+  return counted(count, "vertex", "vertices") + " that no face uses" +
+         place_list(RepairPlace::Vertices, named, count);
+}
+
 }  // namespace
 
 WeldResult weld_exact(const MeshFile& file) {
@@ -192,20 +212,25 @@ MappableMesh make_mappable(MeshFile file, std::vector<std::string>* notes) {
   if (!topology && has_boundary(file.mesh.triangles, file.mesh.vertex_count())) {
     WeldResult welded = weld_exact(file);
     if (welded.merged > 0) {
-      note("welded " + std::to_string(welded.merged) +
-           " vertices onto others of the same position: the faces as indexed are not closed");
+      note(std::string(welded_note) + counted(welded.merged, "vertex", "vertices") +
+           " onto others of the same position: the faces as indexed are not closed");
       file = std::move(welded.file);
       topology = connect();
     }
   }
-  const Eigen::Index before = file.mesh.vertex_count();
-  file = drop_unused_vertices(std::move(file));
-  if (file.mesh.vertex_count() < before) {
-    note("dropped " + std::to_string(before - file.mesh.vertex_count()) +
-         " vertices that no face uses");
+  if (const std::string unused = words_of_unused(file); !unused.empty()) {
+    note(std::string(dropped_note) + unused);
+    file = drop_unused_vertices(std::move(file));
     if (topology) topology = connect();
   }
   return {std::move(file), std::move(topology)};
+}
+
+std::vector<std::string> renumberings_among(const std::vector<std::string>& notes) {
+  std::vector<std::string> made;
+  for (const std::string& note : notes)
+    if (note.starts_with(welded_note) || note.starts_with(dropped_note)) made.push_back(note);
+  return made;
 }
 
 MeshFile prepare_for_mapping(MeshFile file, std::vector<std::string>* notes) {

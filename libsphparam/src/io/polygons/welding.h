@@ -41,7 +41,9 @@ struct MappableMesh {
 /// Requires: indices in range, as readers ensure. Cost: that of `Topology`; where there is none,
 /// sorting the stars of vertices by id.
 MappableMesh make_mappable(MeshFile file, std::vector<std::string>* notes = nullptr);
-/// The same, without the topology.
+/// Those of the notes that it made: vertices of the mesh are not the rows of its file.
+std::vector<std::string> renumberings_among(const std::vector<std::string>& notes);
+/// As `make_mappable`, without the topology.
 MeshFile prepare_for_mapping(MeshFile file, std::vector<std::string>* notes = nullptr);
 
 }  // namespace sphparam

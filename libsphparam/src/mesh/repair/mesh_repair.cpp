@@ -44,13 +44,30 @@ bool turn_outward(RepairState& state, const MeshInspection& inspection) {
   return true;
 }
 
+/// Of the input's vertices, whether one of these is it, or a copy of it.
+std::vector<char> present_origins(const RepairState& state, const std::vector<char>& counted) {
+  std::vector<char> present;
+  for (Vertex v = 0; v < state.vertex_count(); ++v) {
+    const auto origin = static_cast<size_t>(state.vertex_origin[v]);
+    if (state.vertex_origin[v] < 0) continue;
+    if (present.size() <= origin) present.resize(origin + 1, 0);
+    if (counted[v]) present[origin] = 1;
+  }
+  return present;
+}
+
+/// Only what the input loses is told: no vertex that was created, and no copy of one that stays.
 void drop_unused(RepairState& state) {
   std::vector<char> used(state.positions.size(), 0);
   for (const auto& face : state.faces) {
     for (const Vertex v : face) used[v] = 1;
   }
+  std::vector<char> told = present_origins(state, used);
   for (Vertex v = 0; v < state.vertex_count(); ++v) {
-    if (!used[v]) state.log(RepairKind::UnusedVertexDropped, {state.vertex_origin[v]});
+    const Vertex origin = state.vertex_origin[v];
+    if (used[v] || origin < 0 || told[origin]) continue;
+    told[origin] = 1;
+    state.log(RepairKind::UnusedVertexDropped, {origin});
   }
   state.drop_unused_vertices();
 }
