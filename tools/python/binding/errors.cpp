@@ -105,6 +105,17 @@ void raise_field_error(const FieldError& error) {
   set_error(PyExc_ValueError, error.what() + known);
 }
 
+template <class... Errors>
+bool is_one_of(const std::exception& error) {
+  return (dynamic_cast<const Errors*>(&error) || ...);
+}
+
+/// Whether it says all of what is wrong with something that was given.
+bool is_of_a_value(const std::exception& error) {
+  return is_one_of<UnmeasurableMesh, LookError, ImageOfOtherChart, UnlikeSurfaces, OtherSphereError,
+                   AtlasError, NoSuchComponent, std::invalid_argument, std::range_error>(error);
+}
+
 }  // namespace
 
 void declare_errors(py::module_&) {
@@ -132,8 +143,6 @@ void declare_errors(py::module_&) {
       raise("ImageError", error);
     } catch (const SolveError& error) {
       raise("SolveError", error);
-    } catch (const UnmeasurableMesh& error) {
-      set_error(PyExc_ValueError, error.what());
     } catch (const FieldError& error) {
       raise_field_error(error);
     } catch (const BakeSettingError& error) {
@@ -143,23 +152,10 @@ void declare_errors(py::module_&) {
       set_error(PyExc_ValueError, name + ": " + error.reason());
     } catch (const FrontError& error) {
       set_error(PyExc_ValueError, std::string("front: ") + error.what());
-    } catch (const LookError& error) {
-      set_error(PyExc_ValueError, error.what());
-    } catch (const ImageOfOtherChart& error) {
-      set_error(PyExc_ValueError, error.what());
-    } catch (const UnlikeSurfaces& error) {
-      set_error(PyExc_ValueError, error.what());
-    } catch (const OtherSphereError& error) {
-      set_error(PyExc_ValueError, error.what());
-    } catch (const AtlasError& error) {
-      set_error(PyExc_ValueError, error.what());
     } catch (const NoSuchVertex& error) {
       set_error(PyExc_ValueError, error.whose() + ": " + error.what());
-    } catch (const NoSuchComponent& error) {
-      set_error(PyExc_ValueError, error.what());
-    } catch (const std::invalid_argument& error) {
-      set_error(PyExc_ValueError, error.what());
-    } catch (const std::range_error& error) {
+    } catch (const std::exception& error) {
+      if (!is_of_a_value(error)) throw;
       set_error(PyExc_ValueError, error.what());
     }
   });

@@ -157,53 +157,23 @@ py::object optional_rows(const std::optional<Table>& table, py::handle owner) {
   return table ? py::object(shown_rows(*table, owner)) : py::none();
 }
 
-}  // namespace
+const MeshFile& file_of(const py::object& source) { return source.cast<const Source&>().mesh.file; }
 
-bool is_sound(const MeshInspection& found) {
-  return std::ranges::none_of(found.defects, [](const MeshDefect& defect) {
-    return defect.kind == DefectKind::NonFinitePosition ||
-           defect.kind == DefectKind::IndexOutOfRange;
-  });
-}
-
-void take_limits(const py::dict& limits, ReadOptions& options) {
-  Settings settings(limits);
-  settings.take("file", options.max_file_bytes)
-      .take("vertices", options.max_vertices)
-      .take("faces", options.max_faces)
-      .take("degree", options.max_polygon_degree)
-      .take("line", options.max_line_bytes)
-      .take("ply_elements", options.max_ply_elements)
-      .take("ply_properties", options.max_ply_properties)
-      .take("json", options.max_json_bytes)
-      .take("json_depth", options.max_json_depth)
-      .take("json_values", options.max_json_values)
-      .take("json_objects", options.max_json_objects);
-  settings.require_all_known();
-}
-
-void declare_meshes(py::module_& module) {
+void declare_source(py::module_& module) {
   py::class_<Source>(module, "Source", "A mesh on its way to a map.")
-      .def_property_readonly("vertices",
-                             [](const py::object& self) {
-                               return shown_rows(
-                                   self.cast<const Source&>().mesh.file.mesh.positions, self);
-                             })
-      .def_property_readonly("faces",
-                             [](const py::object& self) {
-                               return shown_rows(
-                                   self.cast<const Source&>().mesh.file.mesh.triangles, self);
-                             })
+      .def_property_readonly(
+          "vertices",
+          [](const py::object& self) { return shown_rows(file_of(self).mesh.positions, self); })
+      .def_property_readonly(
+          "faces",
+          [](const py::object& self) { return shown_rows(file_of(self).mesh.triangles, self); })
       .def_property_readonly("corner_texcoords",
                              [](const py::object& self) {
-                               return optional_rows(
-                                   self.cast<const Source&>().mesh.file.corner_texcoords, self);
+                               return optional_rows(file_of(self).corner_texcoords, self);
                              })
-      .def_property_readonly("corner_normals",
-                             [](const py::object& self) {
-                               return optional_rows(
-                                   self.cast<const Source&>().mesh.file.corner_normals, self);
-                             })
+      .def_property_readonly(
+          "corner_normals",
+          [](const py::object& self) { return optional_rows(file_of(self).corner_normals, self); })
       .def_property(
           "path", [](const Source& self) { return FilePath(self.mesh.path); },
           [](Source& self, const FilePath& path) { self.mesh.path = path; })
@@ -245,6 +215,35 @@ void declare_meshes(py::module_& module) {
                                  const Values& values) {
         self.mesh.file.set_face_property(property_of(name, type, values));
       });
+}
+
+}  // namespace
+
+bool is_sound(const MeshInspection& found) {
+  return std::ranges::none_of(found.defects, [](const MeshDefect& defect) {
+    return defect.kind == DefectKind::NonFinitePosition ||
+           defect.kind == DefectKind::IndexOutOfRange;
+  });
+}
+
+void take_limits(const py::dict& limits, ReadOptions& options) {
+  Settings settings(limits);
+  settings.take("file", options.max_file_bytes)
+      .take("vertices", options.max_vertices)
+      .take("faces", options.max_faces)
+      .take("degree", options.max_polygon_degree)
+      .take("line", options.max_line_bytes)
+      .take("ply_elements", options.max_ply_elements)
+      .take("ply_properties", options.max_ply_properties)
+      .take("json", options.max_json_bytes)
+      .take("json_depth", options.max_json_depth)
+      .take("json_values", options.max_json_values)
+      .take("json_objects", options.max_json_objects);
+  settings.require_all_known();
+}
+
+void declare_meshes(py::module_& module) {
+  declare_source(module);
   module.def("source_of", source_of);
   module.def("copied", [](const Source& source) { return std::make_unique<Source>(source); });
   module.def("read", read);
