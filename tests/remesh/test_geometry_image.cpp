@@ -233,6 +233,83 @@ TEST_CASE("geometry images: a mesh comes back from its files, normals and colour
             .find_vertex_property("red"));
 }
 
+TEST_CASE("geometry images: labels are labels again, of their type") {
+  MeshFile file;
+  file.mesh = tests::icosphere(3);
+  const SphereMap map{file.mesh.positions};
+  Property labels{"region", ScalarType::Int16, {}}, heights{"height", ScalarType::Float64, {}};
+  for (int v = 0; v < 642; ++v) labels.values.push_back(v % 35 - 1);
+  heights.values = labels.values;
+  file.vertex_properties = {labels, heights};
+  const Remeshed made = remesh(tests::mapped(file, map), parse_grid("octa:9"));
+  const tests::Folder folder;
+  PendingFiles files;
+  add_geometry_image(files, folder / "position.exr", made, "position");
+  for (const char* name : {"region.exr", "region.png"})
+    add_geometry_image(files, folder / name, made, "region");
+  add_geometry_image(files, folder / "half.exr", made, "region", ImageDepth::Half);
+  add_geometry_image(files, folder / "height.exr", made, "height");
+  files.publish();
+  const auto back = [&](const std::string& property, const std::string& image) {
+    std::vector<std::string> warnings{"none"};
+    const Remeshed mesh = load_geometry_image(
+        {.positions = folder / "position.exr", .attributes = {{property, folder / image}}}, 1, {},
+        &warnings);
+    CHECK(warnings.empty());
+    return *mesh.file().find_vertex_property(property);
+  };
+  for (const char* image : {"region.exr", "region.png", "half.exr"}) {
+    const Property region = back("region", image);
+    CHECK(region.type == ScalarType::Int16);
+    CHECK(region.values == made.file().find_vertex_property("region")->values);
+  }
+  CHECK(back("height", "height.exr").type == ScalarType::Float32);
+}
+
+TEST_CASE("geometry images: whole numbers of which no type is said are floats, which is told") {
+  const Made made("octa:9");
+  const std::vector<double> labels(made.values.size() / 3, 4);
+  GeometryImage image =
+      make_geometry_image(made.spec, made.grid.directions, labels, 1, ImageDepth::Float);
+  const tests::Folder folder;
+  write_image(folder / "region.exr", image.image,
+              {.sample_type = SampleType::Float, .metadata = image.texts});
+  image = make_geometry_image(
+      made.spec, made.grid.directions,
+      {made.grid.directions.data(), made.grid.directions.data() + made.grid.directions.size()}, 3,
+      ImageDepth::Float);
+  write_image(folder / "position.exr", image.image,
+              {.sample_type = SampleType::Float, .metadata = image.texts});
+  std::vector<std::string> warnings;
+  const Remeshed mesh = load_geometry_image(
+      {.positions = folder / "position.exr", .attributes = {{"region", folder / "region.exr"}}}, 1,
+      {}, &warnings);
+  CHECK(mesh.file().find_vertex_property("region")->type == ScalarType::Float32);
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0], Catch::Contains("does not say whether they are labels"));
+}
+
+TEST_CASE("geometry images: labels that a depth does not tell apart are refused") {
+  MeshFile file;
+  file.mesh = tests::icosphere(2);
+  const SphereMap map{file.mesh.positions};
+  Property labels{"region", ScalarType::Int32, std::vector<double>(162, 0)};
+  const auto add = [&](double greatest, const std::string& name, ImageDepth depth) {
+    for (Vertex v = 0; v < 162; ++v)
+      labels.values[static_cast<size_t>(v)] = file.mesh.position(v).z() > 0 ? greatest : 0;
+    file.vertex_properties = {labels};
+    PendingFiles files;
+    add_geometry_image(files, name, remesh(tests::mapped(file, map), parse_grid("octa:5")),
+                       "region", depth);
+  };
+  const tests::Folder folder;
+  CHECK_NOTHROW(add(2048, folder / "h.exr", ImageDepth::Half));
+  CHECK_THROWS_AS(add(2049, folder / "h.exr", ImageDepth::Half), std::range_error);
+  CHECK_NOTHROW(add(65535, folder / "u.png", ImageDepth::Uint16));
+  CHECK_THROWS_AS(add(65536, folder / "u.png", ImageDepth::Uint16), std::range_error);
+  CHECK_THROWS_AS(add(16777217, folder / "f.exr", ImageDepth::Float), std::range_error);
+}
+
 TEST_CASE("geometry images: other grids, and names that say another format, are refused") {
   const TriangleMesh ball = tests::icosphere(2);
   const MappedMesh source = tests::mapped(ball, {ball.positions});

@@ -44,8 +44,10 @@ int run_unimage(UnimageArguments& arguments) {
   require_mesh_name("-o", "the mesh", arguments.output);
   check_places({{"-o", arguments.output}});
   session.hold_signals();
+  std::vector<std::string> warnings;
   const Remeshed mesh =
-      load_geometry_image(files_of(arguments), session.threads(), session.progress());
+      load_geometry_image(files_of(arguments), session.threads(), session.progress(), &warnings);
+  for (const std::string& warning : warnings) session.console.warning(warning);
   session.console.progress("write", 0);
   tell_losses(arguments.output,
               add_mapped(session.files, arguments.output, mesh, session.threads()),
