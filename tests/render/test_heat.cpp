@@ -127,4 +127,7 @@ TEST_CASE("draw_text: dots of the letters, as large as asked, cut off at the rim
   Image none = white(60, 20);
   draw_text(none, " ?", 5, 5, 1, Rgb::Zero());
   CHECK(dark_pixels(none) == 0);
+  Image capital = white(60, 20);
+  draw_text(capital, "T_", 5, 5, 1, Rgb::Zero());
+  CHECK(dark_pixels(capital) == 5 + 6 + 5);
 }

@@ -56,6 +56,14 @@ TEST_CASE(
   CHECK(both.high > 100);
 }
 
+TEST_CASE("value_paint: the title of a scale is the name as it is") {
+  MeshFile file = ball();
+  Property values = ramp(file, 1);
+  values.name = "T_surface";
+  file.set_vertex_property(values);
+  CHECK(value_paint(file, "T_surface").scale->title == "T_surface");
+}
+
 TEST_CASE("value_paint: a scale says whether values lie beyond it, and may be given") {
   MeshFile file = ball();
   file.set_vertex_property(ramp(file, 1));

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "io/formats/gifti/gifti_labels.h"
-#include "lower_case.h"
 #include "sphparam/io/vertex_data.h"
 
 namespace sphparam {
@@ -80,7 +79,6 @@ ValueColours colours_of(const Property& shown, const Naming& naming,
       range ? HeatScale{shown.name, range->first, range->second} : scale_of(shown, naming.names);
   scale.given = range.has_value();
   note_values_beyond(shown, scale);
-  scale.title = in_lower_case(scale.title);
   return {naming.names, {}, std::move(scale)};
 }
 
