@@ -72,6 +72,13 @@ double volume(const TriangleMesh& mesh) {
 
 }  // namespace
 
+TEST_CASE("plates: rows of longitude, latitude and radius are refused by what they are") {
+  for (const char* row : {"-90.0 0.0 250.5\n", "-90 0 250 1\r\n", "0 0 1\n"})
+    CHECK_THROWS_WITH(read(row + std::string("-90.0 30.0 250.5\n"), "a.tab"),
+                      Catch::Contains("no rows of longitude, latitude and radius"));
+  CHECK_THROWS_WITH(read("hello\n", "a.tab"), Catch::Contains("expected a whole number"));
+}
+
 TEST_CASE("plate tables: the same mesh, whichever way counts and numbers stand") {
   const MeshFile expected = read(tetrahedron_obj);
   for (const std::string& text :

@@ -67,6 +67,11 @@ class PlateReader {
   void read_counts() {
     scanner_.require_text();
     if (!next_header_line()) scanner_.fail("the file holds no number of vertices");
+    if (three_numbers_left(scanner_))
+      scanner_.fail(
+          "the table begins with numbers of a row, not with counts: of tables, plates are read "
+          "(numbers of vertices and of plates, the vertices, the plates) and ICQ (q, the "
+          "vertices), no rows of longitude, latitude and radius");
     vertices_ = table_count(scanner_, "vertices", options_.max_vertices, row_bytes);
     if (!scanner_.at_line_end()) return read_plate_count();
     next_table_row(scanner_, "vertex", 0, vertices_);

@@ -128,6 +128,15 @@ int words_left(const TextScanner& scanner) {
   return static_cast<int>(split(line).count);
 }
 
+bool three_numbers_left(const TextScanner& scanner) {
+  std::string_view line = scanner.peek_rest();
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  const Words words = split(line);
+  return words.count >= 3 &&
+         std::all_of(words.words.begin(), words.words.begin() + 3,
+                     [](std::string_view word) { return real(word).has_value(); });
+}
+
 double table_number(TextScanner& scanner) {
   if (const std::optional<double> value = fortran_number(scanner, false)) return *value;
   return scanner.real();

@@ -20,6 +20,9 @@ ShapeTable shape_table(std::string_view text);
 /// How many words are left on the line.
 int words_left(const TextScanner& scanner);
 
+/// Whether three numbers are next on the line, as in tables of longitudes, latitudes and radii.
+bool three_numbers_left(const TextScanner& scanner);
+
 /// The next number, also with an exponent of Fortran's: 1.5D+01. Throws: ReadError, also for what
 /// is not finite.
 double table_number(TextScanner& scanner);
