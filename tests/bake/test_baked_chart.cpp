@@ -50,3 +50,24 @@ TEST_CASE(
             .empty());
   CHECK(warning_of_other_map("ao.png", {}, other).empty());
 }
+
+TEST_CASE("baked chart: an image for a coarse mesh is told on another map of the fine one") {
+  const auto mapped = [](const TriangleMesh& mesh, bool turned) {
+    const Points own = mesh.positions.rowwise().normalized();
+    Points rays = own;
+    if (turned) rays << own.col(1), own.col(2), own.col(0);
+    MeshFile file;
+    file.mesh = mesh;
+    return MappedMesh({.file = file, .map = SphereMap{rays}, .name = "ball.sph.ply"});
+  };
+  const TriangleMesh fine = icosphere(2), coarse = icosphere(1);
+  const MappedMesh source = mapped(fine, false);
+  const ImageTexts texts = texts_of_map(mapped(coarse, false), &source);
+  CHECK(texts.front().second == texts_of_map(mapped(coarse, false)).front().second + "; " +
+                                    texts_of_map(source).front().second);
+  CHECK(warning_of_other_map("ao.png", texts, source).empty());
+  CHECK(warning_of_other_map("ao.png", texts, mapped(coarse, false)).empty());
+  for (const TriangleMesh& mesh : {fine, coarse})
+    CHECK(warning_of_other_map("ao.png", texts, mapped(mesh, true))
+              .starts_with("ao.png is baked on another map of this mesh than ball.sph.ply has"));
+}

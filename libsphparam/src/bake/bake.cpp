@@ -122,7 +122,8 @@ ImageTexts texts_of_all(const MappedMesh& source, const BakeSettings& settings) 
   for (auto& text : texts_of_chart(linear, settings.refine_poles)) {
     texts.push_back(std::move(text));
   }
-  for (auto& text : texts_of_map(settings.target ? *settings.target : source))
+  for (auto& text : texts_of_map(settings.target ? *settings.target : source,
+                                 settings.target ? &source : nullptr))
     texts.push_back(std::move(text));
   if (settings.target) texts.emplace_back("sphparam:for", settings.target->name());
   if (settings.from) texts.emplace_back("sphparam:for", source.name());

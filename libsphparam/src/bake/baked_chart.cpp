@@ -1,10 +1,12 @@
 #include "bake/baked_chart.h"
 
+#include <algorithm>
 #include <bit>
 #include <charconv>
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "texture/baked_texts.h"
 
@@ -12,7 +14,7 @@ namespace sphparam {
 namespace {
 
 constexpr std::string_view interpolation = "sphparam:interpolation",
-                           wedges = "sphparam:refine_poles";
+                           wedges = "sphparam:refine_poles", between_maps = "; ";
 
 /// FNV-1a of the coordinates as float32, −0 as 0, little-endian: what differs less is one map,
 /// written and read.
@@ -30,6 +32,30 @@ std::string head_of_rays(const MappedMesh& mapped) {
   return std::to_string(mapped.map().points.rows()) + " rays, ";
 }
 
+std::string words_of_rays(const MappedMesh& mapped) {
+  char digits[16];
+  const auto end =
+      std::to_chars(digits, digits + sizeof digits, hash_of(mapped.map().points), 16).ptr;
+  return head_of_rays(mapped) + std::string(digits, end);
+}
+
+/// Whether of these maps one has as many rays, and none is this one.
+bool says_another(std::string_view said, const MappedMesh& mapped) {
+  const std::string head = head_of_rays(mapped);
+  bool another = false;
+  std::string own;
+  while (!said.empty()) {
+    const std::size_t end = std::min(said.find(between_maps), said.size());
+    const std::string_view one = said.substr(0, end);
+    said.remove_prefix(std::min(end + between_maps.size(), said.size()));
+    if (!one.starts_with(head)) continue;
+    if (own.empty()) own = words_of_rays(mapped);
+    if (one == own) return false;
+    another = true;
+  }
+  return another;
+}
+
 }  // namespace
 
 ImageTexts texts_of_chart(bool linear_in_uv, int pole_wedges) {
@@ -37,18 +63,15 @@ ImageTexts texts_of_chart(bool linear_in_uv, int pole_wedges) {
           {std::string(wedges), std::to_string(pole_wedges)}};
 }
 
-ImageTexts texts_of_map(const MappedMesh& mapped) {
-  char digits[16];
-  const auto end =
-      std::to_chars(digits, digits + sizeof digits, hash_of(mapped.map().points), 16).ptr;
-  return {{std::string(rays_text), head_of_rays(mapped) + std::string(digits, end)}};
+ImageTexts texts_of_map(const MappedMesh& mapped, const MappedMesh* source) {
+  std::string said = words_of_rays(mapped);
+  if (source) said.append(between_maps).append(words_of_rays(*source));
+  return {{std::string(rays_text), std::move(said)}};
 }
 
 std::string warning_of_other_map(const std::string& name, const ImageTexts& texts,
                                  const MappedMesh& mapped) {
-  const std::string_view said = baked_text(texts, rays_text);
-  if (!said.starts_with(head_of_rays(mapped)) || said == texts_of_map(mapped).front().second)
-    return "";
+  if (!says_another(baked_text(texts, rays_text), mapped)) return "";
   return name + " is baked on another map of this mesh than " + mapped.name() +
          " has, and stands elsewhere on it: `sphparam bake` with the map of " + mapped.name() +
          " makes the image anew, the mesh with the map that it was baked on shows it as it is";

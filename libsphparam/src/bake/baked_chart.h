@@ -14,12 +14,13 @@ namespace sphparam {
 ImageTexts texts_of_chart(bool linear_in_uv, int pole_wedges);
 
 /// The text that tells maps of one mesh apart: "3458 rays, 9f…", a hash of them as float32, in the
-/// order of the vertices. Cost: O(#V).
-ImageTexts texts_of_map(const MappedMesh& mapped);
+/// order of the vertices; and of the mesh that was baked, where that is another one on the same
+/// sphere: "642 rays, 12…; 3458 rays, 9f…". Cost: O(#V).
+ImageTexts texts_of_map(const MappedMesh& mapped, const MappedMesh* source = nullptr);
 
-/// "ao.png is baked on another map …", where an image says one of as many rays that are others;
-/// empty of images of strangers, and of meshes with another number of vertices, whose map may be
-/// the same. `name`: of the image, for people.
+/// "ao.png is baked on another map …", where an image says one of as many rays, and none that is
+/// this one; empty of images of strangers, and of meshes with another number of vertices, whose map
+/// may be the same. `name`: of the image, for people.
 std::string warning_of_other_map(const std::string& name, const ImageTexts& texts,
                                  const MappedMesh& mapped);
 
