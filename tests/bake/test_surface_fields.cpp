@@ -154,6 +154,11 @@ TEST_CASE(
   CHECK(beyond > 0);
   CHECK(beyond < static_cast<long>(values.size()) / 20);
   CHECK_THAT(field.about, Catch::Contains("averaged over"));
+  BakeScene coloured = scene_of(ellipsoid(4, 1, 1.5, 3));  // convex: nothing is below −high
+  coloured.options.heat = true;
+  const SurfaceField heat = curvature_field(coloured, "mean");
+  CHECK(heat.scale->above);
+  CHECK_FALSE(heat.scale->below);
   CHECK_THROWS_AS(curvature_field(scene, "median"), FieldError);
 }
 
@@ -220,6 +225,7 @@ TEST_CASE("as_heat: the colours of the scale, with the same range and a legend o
   }
   CHECK(field.scale->title == "area ratio");
   CHECK(curvature_field(scene, "").scale->title == "curvature mean");
+  CHECK_FALSE((field.scale->below || field.scale->above));
   CHECK_FALSE(height_field(scene, "").scale);
   CHECK_THROWS_AS(as_heat(field), std::invalid_argument);
 }

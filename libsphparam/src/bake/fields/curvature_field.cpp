@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "bake/field_registry.h"
@@ -34,6 +35,12 @@ double weighted_quantile(const VectorX& values, const VectorX& weights, double s
     if (sum >= enough) return std::abs(values[v]);
   }
   return std::abs(values[order.back()]);
+}
+
+/// The least and the greatest of what is on the surface.
+std::pair<double, double> extent_of(const VectorX& values, const VectorX& weights) {
+  const VectorX told = (weights.array() > 0).select(values.array(), 0.0);
+  return {told.minCoeff(), told.maxCoeff()};
 }
 
 std::string about(bool gauss, double scale) {
@@ -71,7 +78,7 @@ SurfaceField curvature_field(const BakeScene& scene, const std::string& argument
       [values, &triangles = mesh.triangles](Face face, int k, std::array<double, 1>& value) {
         value[0] = values[triangles(face, k)];
       });
-  if (scene.options.heat) return as_heat(std::move(field));
+  if (scene.options.heat) return as_heat(std::move(field), extent_of(values, curvature.area));
   if (std::string unit = unit_of_lengths(scene.options); !unit.empty()) {
     if (unit.find(' ') != std::string::npos) unit = "(" + unit + ")";  // "0.3 m"
     field.unit = "1/" + unit + (gauss ? "^2" : "");

@@ -64,11 +64,15 @@ SurfaceField coloured(const SurfaceField& data, const ColourOf& colour_of, bool 
 
 }  // namespace
 
-SurfaceField as_heat(SurfaceField data) {
+SurfaceField as_heat(SurfaceField data, std::optional<std::pair<double, double>> extent) {
   if (data.channels != 1 || data.kind != FieldKind::Data || !data.range) {
     throw std::invalid_argument(data.name + " is not one number with a range");
   }
-  const HeatScale scale = scale_for(data.name, *data.range);
+  HeatScale scale = scale_for(data.name, *data.range);
+  if (extent) {
+    scale.below = extent->first < scale.low;
+    scale.above = extent->second > scale.high;
+  }
   SurfaceField field = coloured(
       data, [scale](double number) { return heat_colour(scale, number); }, true);
   field.range = data.range;
