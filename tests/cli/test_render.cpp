@@ -35,6 +35,24 @@ TEST_CASE("render: draws a mesh, and a map with its sphere beside it") {
   CHECK(piped.out.substr(16, 8) == std::string("\0\0\0\x40\0\0\0\x40", 8));
 }
 
+TEST_CASE("render: what reading lost is told, also where that number is asked for") {
+  const std::string mesh =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+      "property float z\nproperty float quality\nelement face 4\n"
+      "property list uchar int vertex_indices\nend_header\n"
+      "0 0 0 1\n1 0 0 nan\n0 1 0 3\n0 0 1 4\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+  const std::string loss =
+      ": not carried: property 'quality' of element 'vertex': it has 1 value that is not finite\n";
+  const Folder folder;
+  const std::string picture = folder / "a.png";
+  const Ended drawn = sphparam_program({"render", "-", "-o", picture, "--size", "64"}, mesh);
+  CHECK(drawn.code == 0);
+  CHECK_THAT(drawn.err, Contains(loss));
+  const Ended asked = sphparam_program({"render", "-", "-o", picture, "--scalar", "quality"}, mesh);
+  CHECK(asked.code == 2);
+  CHECK_THAT(asked.err, Contains("--scalar: standard input" + loss) && !Contains("no numbers"));
+}
+
 TEST_CASE("render: colours of faces are told wherever they are in no image") {
   const Folder folder;
   const std::string mesh = folder / "faces.off";

@@ -93,6 +93,13 @@ std::string names_of_numbers(const MeshFile& file) {
                        : "there are " + enumerated(names);
 }
 
+/// Why a number that the file has is not there; empty: it has none of that name.
+std::string loss_of(const std::string& wanted, const MeshFile& file) {
+  for (const std::string& loss : losses_among(file.notes))
+    if (loss.find("'" + wanted + "'") != std::string::npos) return loss;
+  return "";
+}
+
 /// The number a vertex or face that is shown: the one that is named, else the first of the data.
 std::string shown_number(DrawnMesh& mesh, const RenderArguments& arguments, Session& session) {
   const bool shows_number = !arguments.data.empty() || !arguments.drawing.scalar.empty();
@@ -104,8 +111,10 @@ std::string shown_number(DrawnMesh& mesh, const RenderArguments& arguments, Sess
   const std::string& wanted = arguments.drawing.scalar;
   if (wanted.empty()) return attached.empty() ? "" : attached.front();
   if (mesh.file.find_vertex_property(wanted) || mesh.file.find_face_property(wanted)) return wanted;
-  throw UsageMistake("--scalar: " + display_name(arguments.input) + " has no '" + wanted + "'; " +
-                     names_of_numbers(mesh.file));
+  const std::string name = "--scalar: " + display_name(arguments.input);
+  if (const std::string loss = loss_of(wanted, mesh.file); !loss.empty())
+    throw UsageMistake(name + ": " + loss);
+  throw UsageMistake(name + " has no '" + wanted + "'; " + names_of_numbers(mesh.file));
 }
 
 std::string drawn(DrawnMesh& mesh, const RenderArguments& arguments, Session& session) try {
@@ -144,6 +153,7 @@ int run_render(RenderArguments& arguments) {
   Session session(arguments);
   session.console.progress("picture", 0);
   DrawnMesh mesh = read_drawn(arguments, session);
+  tell_losses_of_reading(arguments.input, mesh.file.notes, session.console);
   if (!mesh.warning.empty()) session.warn({mesh.warning});
   crease(mesh.file, arguments.input, arguments.crease, session);
   session.files.add(arguments.output, drawn(mesh, arguments, session));
