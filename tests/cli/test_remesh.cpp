@@ -36,6 +36,41 @@ TEST_CASE("remesh: every grid is written certified, and reported") {
   }
 }
 
+TEST_CASE("remesh --within: the coarsest grid that measure finds near enough") {
+  const Folder folder;
+  TriangleMesh egg = icosphere(3);
+  egg.positions.col(2) *= 1.5;
+  const std::string mesh = folder / "egg.obj", map = folder / "egg.sph.ply";
+  const std::string out = folder / "new.sph.ply";
+  write_bytes(mesh, obj_text(egg));
+  REQUIRE(sphparam_program({"map", mesh, "-o", map}).code == 0);
+  const auto remesh = [&](Names words) {
+    words.insert(words.begin(), {"remesh", map, "-o", out});
+    return sphparam_program(words);
+  };
+  const Ended ended = remesh({"--grid", "ico", "--within", "2%", "--json", "-"});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  const Json json = Json::parse(ended.out);
+  CHECK(json["within"]["held"] == true);
+  CHECK(json["grid"]["name"] == "ico:2");
+  CHECK_THAT(ended.err, Contains("  ico:2: at most ") && Contains(": ico:2, 162 vertices"));
+  const auto measured = [&] {
+    return sphparam_program({"measure", map, out, "--max-distance", "2%"}).code;
+  };
+  CHECK(measured() == 0);
+  REQUIRE(remesh({"--grid", "ico:1"}).code == 0);
+  CHECK(measured() == 6);
+  const std::vector<Names> refused = {{"--grid", "ico:3"},
+                                      {"--grid", "ico", "--lods", "1"},
+                                      {"--grid", "ico", "--adaptive"},
+                                      {"--grid", "ico", "--uv", "grid"}};
+  for (Names words : refused) {
+    words.insert(words.end(), {"--within", "2%"});
+    CHECK(remesh(words).code == 2);
+  }
+}
+
 TEST_CASE("remesh: a .glb holds the grid's chart, one-to-one, and the colours carried") {
   const Folder folder;
   const std::string mesh = folder / "shape.ply", glb = folder / "new.GLB";

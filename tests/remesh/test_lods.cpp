@@ -1,7 +1,9 @@
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <stdexcept>
 
 #include "sphparam/io/fillers.h"
+#include "sphparam/measure/surface_distance.h"
 #include "sphparam/remesh/levels_of_detail.h"
 #include "support/test_meshes.h"
 
@@ -30,6 +32,23 @@ TEST_CASE("levels of detail: what was not made by halving has none") {
   CHECK(name_of(*coarser_grid(parse_grid("ico:7"), 2)) == "ico:5");
   CHECK(name_of(*coarser_grid(parse_grid("octa:129"), 3)) == "octa:17");
   CHECK(name_of(*coarser_grid(parse_grid("cube:64"), 1)) == "cube:32");
+}
+
+TEST_CASE("levels of detail: the coarsest grid within a distance, to the last bit of it") {
+  MeshFile file;
+  file.mesh = tests::icosphere(4);
+  const SphereMap map{file.mesh.positions};
+  file.mesh.positions.col(2) *= 1.3;
+  const MappedMesh mapped({.file = file, .map = map});
+  const Remeshed made = remesh(mapped, parse_grid("ico:2"));
+  const double max = measure_distance(mapped.mesh(), made.mesh()).max();
+  const GridWithin found = coarsest_grid_within(mapped, max, {.threads = 2});
+  CHECK(name_of(found.grid) == "ico:2");
+  CHECK(found.max == max);
+  CHECK(found.holds());
+  CHECK(name_of(coarsest_grid_within(mapped, std::nextafter(max, 0)).grid) == "ico:3");
+  CHECK(coarsest_grid_within(mapped, 100).grid.size == 0);
+  CHECK_THROWS_AS(coarsest_grid_within(mapped, -1), std::invalid_argument);
 }
 
 TEST_CASE("levels of detail: of any mesh, each with a quarter of the vertices, on its sphere") {

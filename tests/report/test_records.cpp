@@ -641,6 +641,32 @@ TEST_CASE("remesh_record: the finest level, and the others where there are sever
         "ball.ply: ico:2, 162 vertices, certified one-to-one, 0 s → low_0.ply\n");
 }
 
+TEST_CASE(
+    "remesh_record: a grid that was sought says how near it is, or that none is near enough") {
+  const MappedMesh source = ball();
+  const std::vector<GridSpec> grids = {parse_grid("ico:1")};
+  const std::vector<LevelOfDetail> levels = levels_of_detail(source, grids, {.measure = false});
+  const auto record_of = [&](double most) {
+    return RemeshRecord{.input = "ball.ply",
+                        .grid = "ico:1",
+                        .source = source,
+                        .levels = levels,
+                        .within = GridWithin{.grid = grids[0], .most = most, .max = 0.25}};
+  };
+  const Json held = Json::parse(to_json(record_of(0.25)));
+  CHECK(held["within"] == Json({{"most", 0.25}, {"max", 0.25}, {"held", true}}));
+  CHECK(warnings_of(record_of(0.25)).empty());
+  CHECK_THAT(to_text(record_of(0.25)), StartsWith("  ico:1: at most 0.25 ("));
+  const Json missed = Json::parse(to_json(record_of(0.125)));
+  CHECK(missed["within"] == Json({{"most", 0.125}, {"max", 0.25}, {"held", false}}));
+  REQUIRE(warnings_of(record_of(0.125)).size() == 1);
+  CHECK_THAT(warnings_of(record_of(0.125))[0],
+             StartsWith("ico:1: at most 0.25 (") &&
+                 Catch::EndsWith(
+                     "from the mesh, either way, more than 0.125: no finer grid is looked at"));
+  CHECK_THAT(to_text(record_of(0.125)), StartsWith("ball.ply: ico:1, "));
+}
+
 TEST_CASE("remesh_record: a displacement that does harm says so") {
   const MappedMesh source = ball();
   const std::vector<GridSpec> grids = {parse_grid("ico:1")};

@@ -2,6 +2,8 @@
 
 #include "arguments/remesh_arguments.h"
 
+#include <cmath>
+
 namespace sphparam::cli {
 
 namespace {
@@ -12,6 +14,11 @@ bool read_size(const std::string& text, DisplacementSize& size) {
   const auto [width, height] = *numbers;
   size = {width, height};
   return width >= 2 && width % 2 == 0 && height >= 1 && std::int64_t{width} * height <= most_texels;
+}
+
+bool read_length(const std::string& text, std::optional<Amount>& length) {
+  length = amount_of(text);
+  return length && std::isfinite(length->value) && length->value >= 0;
 }
 
 void declare_subdivision(Declaration& command, RemeshArguments& arguments) {
@@ -80,8 +87,14 @@ void declare_outputs(Declaration& command, RemeshArguments& arguments) {
 
 void declare_remesh_options(Declaration& command, RemeshArguments& arguments) {
   command.input("MESH", arguments.input, "A mesh, with its map or without; - for standard input")
-      .text("--grid", arguments.grid, "GRID", grid_patterns() + " or like:MESH")
+      .text("--grid", arguments.grid, "GRID", grid_patterns() + " or like:MESH; ico with --within")
       .required()
+      .parsed(
+          "--within", "X|X%",
+          [&](const std::string& text) { return read_length(text, arguments.within); },
+          "expected a length, as 0.01 or 0.5%, not ",
+          "With --grid ico: the coarsest level whose faces are nowhere farther than this from the "
+          "mesh, nor it from them; % is of its diagonal")
       .sphere(arguments.sphere)
       .choice("--holes", arguments.holes,
               {{"keep", FillersInFile::Kept}, {"drop", FillersInFile::Left}},

@@ -6,6 +6,7 @@
 
 #include "arguments/declaration.h"
 #include "arguments/naming.h"
+#include "arguments/numbers.h"
 #include "arguments/repair_arguments.h"
 #include "sphparam/io/certified_files.h"
 #include "sphparam/remesh/displacement.h"
@@ -27,6 +28,7 @@ struct RemeshArguments : CommonArguments {
   std::string input;
   std::string sphere;  // a map of the mesh in a file of its own
   std::string grid;
+  std::optional<Amount> within;  // how far the new mesh may be: a level of the grid ico is sought
   std::string output;
   Words data;          // numbers a vertex in files of their own
   std::string areas;   // of vertices: two files, on the source and on the grid
@@ -62,8 +64,8 @@ struct ImageRequest {
 
 /// What a command line of `remesh` asks for, having been found to make sense.
 struct RemeshRequests {
-  std::optional<GridSpec> grid;      // nothing: another sphere's vertices …
-  std::string like;                  // … in this file
+  std::optional<GridSpec> grid;      // with --within the finest; nothing: another sphere's …
+  std::string like;                  // … vertices, in this file
   std::vector<GridSpec> coarser;     // grids of --lods
   std::vector<std::string> outputs;  // of -o and --lods: one a level, or one .glb
   std::vector<ImageRequest> images;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "arguments/limits.h"
 #include "arguments/mesh_names.h"
 #include "arguments/remesh_arguments.h"
 #include "console/exit_codes.h"
@@ -18,13 +19,36 @@ namespace sphparam::cli {
 namespace {
 
 constexpr std::string_view like_prefix = "like:";
+constexpr double least_bytes_a_vertex = 400;  // of a remesh, measured: 450
+
+/// --within finds the level, and what depends on it is not known before.
+void check_sought_grid(const RemeshArguments& arguments) {
+  if (!arguments.within) return;
+  if (arguments.grid != "ico")
+    throw UsageMistake("--within finds the level of --grid ico, and is not for --grid " +
+                       arguments.grid);
+  for (const auto& [is_given, option] : {std::pair(arguments.lods > 0, "--lods"),
+                                         {arguments.subdivision.has_value(), "--subdiv-fit"},
+                                         {arguments.adaptive, "--adaptive"},
+                                         {!arguments.areas.empty(), "--areas"},
+                                         {arguments.naming.pattern.has_value(), "--names"},
+                                         {arguments.uv == TextureOf::Grid, "--uv grid"}})
+    if (is_given)
+      throw UsageMistake(std::string("--within is not for ") + option +
+                         ": find the level first, and name it");
+}
 
 std::optional<GridSpec> grid_asked_for(const RemeshArguments& arguments) {
+  if (arguments.within) return GridSpec{.kind = GridKind::Icosahedron, .size = finest_sought};
   if (arguments.grid == like_prefix)
     throw UsageMistake("--grid like: names no mesh, as in like:MESH");
   if (arguments.grid.starts_with(like_prefix)) return std::nullopt;
   try {
-    return parse_grid(arguments.grid);
+    const GridSpec grid = parse_grid(arguments.grid);
+    require_memory("--grid " + arguments.grid + ": its " + std::to_string(vertex_count(grid)) +
+                       " vertices",
+                   least_bytes_a_vertex * static_cast<double>(vertex_count(grid)));
+    return grid;
   } catch (const std::invalid_argument& error) {
     throw UsageMistake("--grid " + arguments.grid + ": " + error.what());
   }
@@ -251,6 +275,7 @@ void check_all_places(const RemeshArguments& arguments, const RemeshRequests& re
 }  // namespace
 
 RemeshRequests check_remesh_arguments(RemeshArguments& arguments) {
+  check_sought_grid(arguments);
   settle_output(arguments);
   check_outputs(arguments);
   RemeshRequests requests;

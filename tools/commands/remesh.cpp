@@ -40,6 +40,7 @@ constexpr char summary[] =
     "base.glb\n"
     "  sphparam remesh statue.sph.ply --grid ico:7 --lods 4 -o statue.glb\n"
     "  sphparam remesh statue.sph.ply --grid octa:257 --geometry-image gi.exr\n"
+    "  sphparam remesh statue.sph.ply --grid ico --within 0.5% -o near.sph.ply\n"
     "\n"
     "Grids: ico:L (icosahedron, L times halved), ico:f=N (its edges cut into N), octa:N (flat\n"
     "octahedron, N×N samples), cube:N (quads, N an edge), uv:WxH (meridians and rows),\n"
@@ -47,6 +48,19 @@ constexpr char summary[] =
     "The directions of the grid are the map of the result: a .ply is certified as `map` writes\n"
     "it. Each vertex is located exactly; a mesh that carries no map is mapped first\n"
     "(as `map --lambda 5` does, which spreads a grid's vertices better than the default).\n";
+
+/// The grid that --within finds, which is the one that was asked for then.
+std::optional<GridWithin> seek_grid(RemeshArguments& arguments, RemeshRequests& requests,
+                                    const MappedMesh& mapped, Session& session) {
+  if (!arguments.within) return std::nullopt;
+  const double most = arguments.within->of(diagonal_of(mapped.mesh().positions));
+  const GridWithin found = coarsest_grid_within(
+      mapped, most,
+      {.sample = arguments.sample, .threads = session.threads(), .progress = session.progress()});
+  requests.grid = found.grid;
+  arguments.grid = name_of(found.grid);
+  return found;
+}
 
 struct TimedGrid {
   SphereGrid grid;
@@ -167,7 +181,8 @@ MappedMesh read_remeshed(const RemeshArguments& arguments, const RemeshRequests&
 
 /// Refuses what cannot be fitted or measured; tells of fillers that count as surface.
 void look_at_source(const RemeshArguments& arguments, const MappedMesh& mapped, Session& session) {
-  if (arguments.subdivision || arguments.lods > 0) require_measurable(mapped.mesh());
+  if (arguments.subdivision || arguments.lods > 0 || arguments.within)
+    require_measurable(mapped.mesh());
   if (arguments.subdivision) tell_counted_fillers(mapped, "what is fitted", session.console);
   if (arguments.adaptive) tell_counted_fillers(mapped, "where vertices go", session.console);
 }
@@ -186,12 +201,13 @@ void tell_areas_of_sphere(const RemeshArguments& arguments, const TriangleMesh& 
 
 int run_remesh(RemeshArguments& arguments) {
   Session session(arguments);
-  const RemeshRequests requests = check_remesh_arguments(arguments);
+  RemeshRequests requests = check_remesh_arguments(arguments);
   require_there({arguments.input, arguments.sphere, requests.like});
   require_there(requests.areas);
   MappedMesh mapped = read_remeshed(arguments, requests, session);
   const int last_data = last_attached(mapped.file());
   look_at_source(arguments, mapped, session);
+  const std::optional<GridWithin> within = seek_grid(arguments, requests, mapped, session);
   TimedGrid made = grid_for(arguments, requests, session);
   tell_areas_of_sphere(arguments, mapped.mesh(), session);
   const std::optional<Adaptation> adaptation =
@@ -205,6 +221,7 @@ int run_remesh(RemeshArguments& arguments) {
                       .source = mapped,
                       .levels = levels,
                       .sample = arguments.sample,
+                      .within = within,
                       .adaptation = adaptation,
                       .layout = requests.layout,
                       .displacement = files.displacement,
@@ -215,7 +232,7 @@ int run_remesh(RemeshArguments& arguments) {
   session.publish();
   record.seconds = session.stopwatch.seconds();
   tell(record, session.console);
-  return Ok;
+  return within && !within->holds() ? LimitExceeded : Ok;
 }
 
 }  // namespace

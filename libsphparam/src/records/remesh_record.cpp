@@ -23,6 +23,13 @@ double source_diagonal(const RemeshRecord& record) {
   return diagonal_of(record.source.mesh().positions);
 }
 
+/// "ico:5: at most 0.012 (0.4 % of the diagonal) from the mesh, either way"
+std::string within_words(const RemeshRecord& record) {
+  const double max = record.within->max;
+  return record.grid + ": at most " + short_number(max) + " (" +
+         percent(max / source_diagonal(record)) + " of the diagonal) from the mesh, either way";
+}
+
 std::string fit_line(const SubdivisionFit& fit, double diagonal) {
   return "  " + name_of(fit.topology->scheme()) +
          " surface fitted: " + error_words(fit.rms, fit.max, diagonal) + ", one way, from " +
@@ -209,6 +216,9 @@ Json head_json(const RemeshRecord& record) {
 
 std::vector<std::string> warnings_of(const RemeshRecord& record) {
   std::vector<std::string> warnings;
+  if (record.within && !record.within->holds())
+    warnings.push_back(within_words(record) + ", more than " + short_number(record.within->most) +
+                       ": no finer grid is looked at");
   for (const LevelOfDetail& level : record.levels) {
     if (!level.in_space || level.in_space->all_well()) continue;
     warnings.push_back(warning_of(*level.in_space, record.source, level.mesh));
@@ -220,6 +230,10 @@ std::string to_json(const RemeshRecord& record) {
   const LevelOfDetail& finest = record.levels.front();
   const Remeshed::Figures& figures = finest.mesh.figures();
   Json json = head_json(record);
+  if (record.within)
+    json["within"] = {{"most", record.within->most},
+                      {"max", record.within->max},
+                      {"held", record.within->holds()}};
   if (record.adaptation) json["adaptive"] = adaptation_json(*record.adaptation);
   json["averaged_vertices"] = figures.averaged;
   json["carried"] = carried_by(finest.mesh.file());
@@ -243,6 +257,7 @@ std::string to_text(const RemeshRecord& record) {
   const LevelOfDetail& finest = record.levels.front();
   const double diagonal = source_diagonal(record);
   std::string lines;
+  if (record.within && record.within->holds()) lines += "  " + within_words(record) + "\n";
   if (finest.fit) lines += fit_line(*finest.fit, diagonal);
   if (record.layout) lines += layout_line(record.grid, *record.layout);
   if (record.displacement) lines += displacement_lines(*record.displacement, diagonal);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "number_text.h"
@@ -65,6 +66,21 @@ void measure(LevelOfDetail& level, const MappedMesh& source, const LevelOptions&
                                     {.samples = distance_samples(level.mesh.faces().count()),
                                      .threads = options.threads,
                                      .progress = options.progress});
+}
+
+/// As far as a quick look goes where that is more than wanted; else as far as all are apart.
+double deviation(const MappedMesh& source, const MappedMesh& made, double most,
+                 const LevelOptions& options) {
+  constexpr std::int64_t few = 10'000;
+  DistanceOptions measuring{
+      .samples = few, .extremes = false, .threads = options.threads, .progress = options.progress};
+  const auto far = [&] {
+    return distance_between(source.surface(), made.surface(), made.name(), measuring).max;
+  };
+  if (const double seen = far(); seen > most) return seen;
+  measuring.samples = DistanceOptions{}.samples;
+  measuring.extremes = true;
+  return far();
 }
 
 void add_levels(std::vector<LevelOfDetail>& levels, const MappedMesh& source,
@@ -143,6 +159,25 @@ LevelOfDetail::Distance distance_of_level(const MappedMesh& source, const Mapped
   return distance_between(
       source.surface(), level.surface(), counted(faces, "triangle"),
       {.samples = distance_samples(faces), .threads = threads, .progress = progress});
+}
+
+GridWithin coarsest_grid_within(const MappedMesh& source, double most,
+                                const LevelOptions& options) {
+  require_at_least("most", most, 0);
+  require_measurable(source.mesh());
+  GridWithin found{.most = most, .max = std::numeric_limits<double>::infinity()};
+  for (int level = 0; level <= finest_sought; ++level) {
+    found.grid = {.kind = GridKind::Icosahedron, .size = level};
+    const Remeshed made = remesh(source, found.grid,
+                                 {.sample = options.sample,
+                                  .transfer = {},
+                                  .threads = options.threads,
+                                  .progress = options.progress});
+    if (made.surface().face_count() == 0) continue;  // holes alone
+    found.max = deviation(source, made, most, options);
+    if (found.holds()) break;
+  }
+  return found;
 }
 
 TriangleMesh shown_mesh(const LevelOfDetail& level, int threads) {

@@ -28,6 +28,7 @@ struct RemeshRecord {
   const std::vector<LevelOfDetail>& levels;  // at least one, the finest first; measured, where
                                              // there are several
   SampleMode sample = SampleMode::Point;
+  std::optional<GridWithin> within = {};  // where the grid was sought
   std::optional<Adaptation> adaptation = {};
   std::optional<TextureLayout> layout = {};  // of the finest level's texture coordinates
   std::optional<WrittenDisplacement> displacement = {};
@@ -35,7 +36,8 @@ struct RemeshRecord {
   double grid_seconds = 0, seconds = 0;  // of making the grid; of all
 };
 
-/// What may be wrong with what was made, a line each: levels that lie over themselves in space.
+/// What may be wrong with what was made, a line each: a grid that was sought in vain, levels that
+/// lie over themselves in space.
 std::vector<std::string> warnings_of(const RemeshRecord& record);
 
 /// As `sphparam remesh --json` tells it, with its warnings.

@@ -72,6 +72,25 @@ std::vector<MappedMesh> quartered_meshes(const MappedMesh& source, int count,
 LevelOfDetail::Distance distance_of_level(const MappedMesh& source, const MappedMesh& level,
                                           int threads = 0, const Progress& progress = {});
 
+/// The finest grid that is looked at: 2,621,442 vertices.
+constexpr int finest_sought = 9;
+
+/// A grid of the icosahedron, ico:L, and how far the mesh on it is from its source.
+struct GridWithin {
+  GridSpec grid = {};
+  double most = 0;  // that was wanted
+  double max = 0;   // of both ways, as `measure_distance` finds it
+  bool holds() const { return max <= most; }
+};
+
+/// The coarsest of the grids ico:0, ico:1, … on which the mesh is nowhere farther than `most` from
+/// its source, nor its source from it: of what is surface, by flat faces. The finest that is looked
+/// at where none holds. Of `options`: sample, threads, progress. Requires: most ≥ 0. Throws:
+/// std::invalid_argument if not; as `remesh`; UnmeasurableMesh where distances mean nothing;
+/// Cancelled. Cost: a remesh and a quick look a level, and `measure_distance` of the last ones.
+GridWithin coarsest_grid_within(const MappedMesh& source, double most,
+                                const LevelOptions& options = {});
+
 /// What a level shows and is measured by: of its limit surface, where one is fitted, a fine mesh;
 /// else its triangles.
 TriangleMesh shown_mesh(const LevelOfDetail& level, int threads = 0);
