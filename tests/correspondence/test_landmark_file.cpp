@@ -47,7 +47,14 @@ TEST_CASE("landmark files: what is wrong is said with its line") {
   CHECK_THROWS_WITH(parse("0 1\n3 1\n"), Contains("second mesh") && Contains("first in line 1"));
   CHECK_THROWS_WITH(parse("0 1 2\n"), Contains("pairs.txt:1:") && Contains("then nothing"));
   CHECK_THROWS_WITH(parse("0\n"), Contains("pairs.txt:1:"));
-  CHECK_THROWS_WITH(parse("0 x\n"), Contains("pairs.txt:1:"));
+  CHECK_THROWS_WITH(
+      parse("0 x\n"),
+      Contains(
+          "pairs.txt:1: expected a whole number, found 'x': a line is a vertex of the "
+          "first mesh and one of the second, by their numbers in the files, from 0, as in `512 "
+          "90`; coordinates are not taken"));
+  CHECK_THROWS_WITH(parse("0.5 0.25 1\n"),
+                    Contains("found '0.5': a line is a vertex of the first"));
   CHECK_THROWS_WITH(parse("# nothing\n"), Contains("no pair"));
 }
 

@@ -46,5 +46,10 @@ TEST_CASE("template_landmarks: what is none is refused with its line") {
   CHECK_THAT(complaint("\n99\n"), Contains("marks.txt:2") && Contains("no vertex 99"));
   CHECK_THAT(complaint("1 a\n2 a\n"), Contains("marks.txt:2") && Contains("line 1"));
   CHECK_THAT(complaint("nose 3\n"), Contains("whole number"));
+  CHECK_THAT(
+      complaint("0.5 1 2\n"),
+      Contains("marks.txt:1: expected a whole number, found '0.5': a line is a vertex of the "
+               "template, by its number in the file, from 0, and a name if you like, as in "
+               "`512 nose`; coordinates are not taken"));
   CHECK_THAT(complaint("# nothing\n"), Contains("no landmark"));
 }

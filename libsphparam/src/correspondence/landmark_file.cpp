@@ -5,9 +5,14 @@
 
 #include "io/files/file_bytes.h"
 #include "io/files/text_scanner.h"
+#include "io/files/vertex_number.h"
 
 namespace sphparam {
 namespace {
+
+constexpr char line_is[] =
+    "a vertex of the first mesh and one of the second, by their numbers in the files, from 0, as "
+    "in `512 90`; coordinates are not taken";
 
 /// The vertices of one side, and the lines they are in.
 class Side {
@@ -47,7 +52,7 @@ void LandmarkFile::parse(std::string_view text, const std::string& name) {
   TextScanner scanner(text, name, limits);
   scanner.require_text();
   while (scanner.next_filled_line()) {
-    const long first = scanner.integer(), second = scanner.integer();
+    const long first = vertex_number(scanner, line_is), second = vertex_number(scanner, line_is);
     if (!scanner.at_line_end())
       scanner.fail("expected a vertex of the first mesh and one of the second, then nothing");
     lines_.push_back({first, second, scanner.line_number()});

@@ -4,12 +4,16 @@
 
 #include "io/files/file_bytes.h"
 #include "io/files/text_scanner.h"
+#include "io/files/vertex_number.h"
 
 namespace sphparam {
 namespace {
 
 TemplateLandmark landmark_in(TextScanner& scanner, const FileNumbers& numbers) {
-  const long number = scanner.integer();
+  const long number = vertex_number(
+      scanner,
+      "a vertex of the template, by its number in the file, from 0, and a name if you like, as in "
+      "`512 nose`; coordinates are not taken");
   const Vertex vertex = numbers.vertex(number);
   if (vertex < 0) scanner.fail(numbers.absence(number));
   std::string name;
