@@ -89,7 +89,8 @@ BatchPlan write_batch(const fs::path& folder) {
                             0,
                             1,
                             R"({"distortion":{"mean_abs_ln_area":)" + std::to_string(area) +
-                                R"(,"mean_abs_ln_angle":0.1}})"});
+                                R"(,"mean_abs_ln_angle":0.1})" +
+                                (i == 888 ? R"(,"inspection":{"vertices":10242}})" : "}")});
     const fs::path place = failed
                                ? fs::path(failure_path(folder.string(), item.id))
                                : fs::path(result_folder(folder.string(), item.id)) / "record.json";
@@ -120,6 +121,7 @@ TEST_CASE("batch page in Chromium: a thousand shapes are sorted, filtered, searc
   std::string page =
       batch_page(folder.path.string(), plan, {.page_folder = folder.path.string(), .title = "all"});
   CHECK_THAT(page, Contains("Outliers: <a href=\"#i0777\">") && Contains("a &lt;hole&gt;"));
+  CHECK_THAT(page, Contains(",10242,0.2888,0.1,"));  // a count is whole, a measure is rounded
   if (!fs::exists("/usr/bin/chromium")) {
     WARN("skipped: no Chromium");
     return;

@@ -4,6 +4,7 @@
 #include "report/page.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -105,11 +106,17 @@ Json short_json(const std::optional<double>& value) {
   return Json::parse(short_number(*value, 4), nullptr, false);
 }
 
+/// Whole, whatever its digits.
+Json count_json(const std::optional<double>& value) {
+  if (!value) return nullptr;
+  return static_cast<std::int64_t>(*value);
+}
+
 /// The row of a shape, in the order that batch_page.js knows.
 Json row_json(const BatchItem& item, const Shape& shape, double outlyingness) {
   return {item.id,
           shape.outcome,
-          short_json(shape.vertices),
+          count_json(shape.vertices),
           short_json(shape.area),
           short_json(shape.angle),
           short_json(shape.within_two),
