@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 #include <cstdlib>
 
@@ -9,6 +11,17 @@ using namespace sphparam::tests;
 using Catch::Matchers::Contains;
 
 #ifndef __SANITIZE_ADDRESS__  // which has memory of its own
+TEST_CASE("limits: a grid that this machine has no memory for is refused before any work") {
+  const double needed = 400.0 * 167772162;
+  if (static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE)) >
+      needed)
+    return;  // it has
+  const Ended ended = sphparam_program({"remesh", "nowhere.ply", "--grid", "ico:12", "--csv", "-"});
+  CHECK(ended.code == 2);
+  CHECK_THAT(ended.err, Contains("--grid ico:12: its 167772162 vertices take 67.1 GB of memory or "
+                                 "more, and this machine has "));
+}
+
 TEST_CASE("limits: more memory than --max-memory ends with 1, says so and leaves nothing") {
   const Folder folder;
   write_bytes(folder / "mesh.obj", obj_text(icosphere(5)));

@@ -4,6 +4,7 @@
 #include "arguments/limits.h"
 
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -12,6 +13,8 @@
 #include <limits>
 
 #include "arguments/declaration.h"
+#include "console/exit_codes.h"
+#include "number_text.h"
 
 namespace sphparam::cli {
 
@@ -105,5 +108,15 @@ void declare_limits(Declaration& command) {
 const ReadOptions& input_limits() { return limits; }
 
 const char* out_of_memory_message() noexcept { return message; }
+
+void require_memory(const std::string& what, double bytes) {
+  constexpr double giga = 1e9;
+  const double there =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+  if (there > 0 && bytes > there)
+    throw UsageMistake(what + " take " + short_number(bytes / giga) +
+                       " GB of memory or more, and this machine has " + short_number(there / giga) +
+                       " GB");
+}
 
 }  // namespace sphparam::cli

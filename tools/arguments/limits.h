@@ -26,4 +26,8 @@ const ReadOptions& input_limits();
 /// What is to be said when memory ran out. Allocates nothing: there may be none.
 const char* out_of_memory_message() noexcept;
 
+/// Refuses, before any work is done, what this machine cannot hold: the system would end the
+/// program after minutes. `what`: "--grid ico:12: its 167772162 vertices". Throws: UsageMistake.
+void require_memory(const std::string& what, double bytes);
+
 }  // namespace sphparam::cli
