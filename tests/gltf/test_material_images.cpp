@@ -135,6 +135,27 @@ TEST_CASE("asset images: a JPEG of CMYK becomes PNG and is told, one that is cut
                     Contains("glTF has no EXR: save it as .png"));
 }
 
+TEST_CASE("asset images: floats of colours become sRGB, those of our normals what integers have") {
+  const Folder folder;
+  Words warnings;
+  Image light(2, 1, 3);
+  light.pixels = {0.5, 0, 1, 0.2140411F, -1, 0};
+  const auto read = [&](const std::string& name, const ImageTexts& texts) {
+    const std::vector<char> tiff = encode_image(
+        light, ImageFormat::Tiff, {.sample_type = SampleType::Float, .metadata = texts});
+    write(folder / "a.tif", {tiff.data(), tiff.size()});
+    return read_asset_image(folder / "a.tif", name, warnings).pixels.pixels;
+  };
+  const std::vector<float> colours = read("basecolor", {});
+  CHECK(colours[0] == Approx(0.735357).margin(1e-5));  // 1.055 · 0.5^(1/2.4) − 0.055
+  CHECK(colours[1] == 0);
+  CHECK(colours[2] == 1);
+  CHECK(colours[3] == Approx(0.5).margin(1e-5));
+  CHECK(read("normal", {{"sphparam:map", "normal-tangent"}, {"sphparam:min", "-1"}}) ==
+        std::vector<float>{0.75, 0.5, 1, 0.5F + 0.5F * 0.2140411F, 0, 0.5});
+  CHECK(read("orm", {}) == light.pixels);
+}
+
 TEST_CASE("asset images: alpha of strangers is a mask, blended, or none") {
   CHECK(alpha_mode_of(Image(4, 2, 3)) == AlphaMode::Opaque);
   CHECK(alpha_mode_of(with_alphas({1, 1})) == AlphaMode::Opaque);

@@ -72,6 +72,64 @@ TEST_CASE("equirectangular: a constant image is constant, however wide the look"
   }
 }
 
+TEST_CASE("equirectangular: means are by area, where rows near the poles count less") {
+  Image cap(64, 32, 3);  // white to 45° from the pole
+  std::fill_n(cap.pixels.begin(), 3 * 64 * 8, 1.0F);
+  const TexturePyramid pyramid(cap, true, 1, {}, ImageRows::Parallels);
+  const EquirectangularImage image(pyramid, Convention::Sphparam);
+  const double all = (1 - std::cos(pi / 4)) / 2;  // 0.1464, of 0.25 of the rows
+  CHECK(looked_up(image, {1, 0, 0}, 10)[0] == Approx(all).margin(2e-5));
+  Image row(64, 32, 3);  // white in the first row, 5.625° wide
+  std::fill_n(row.pixels.begin(), 3 * 64, 1.0F);
+  const TexturePyramid rows(row, true, 1, {}, ImageRows::Parallels);
+  const double share = (1 - std::cos(pi / 32)) / (1 - std::cos(pi / 16));  // 0.2506
+  CHECK(looked_up(EquirectangularImage(rows, Convention::Sphparam), {0, 0, 1}, pi / 16)[0] ==
+        Approx(share).margin(2e-5));
+}
+
+TEST_CASE("equirectangular: floats are linear light in any format, integers sRGB") {
+  const Folder folder;
+  Image grey(4, 2, 3);
+  std::fill(grey.pixels.begin(), grey.pixels.end(), 0.25F);
+  const auto value = [&](ImageFormat format, SampleType type, const std::string& name,
+                         std::string* warning = nullptr) {
+    const std::vector<char> bytes = encode_image(grey, format, {.sample_type = type});
+    write_file(folder / name, {bytes.data(), bytes.size()});
+    const EquirectangularImage image = read_equirectangular(folder / name);
+    if (warning) *warning = image.warning();
+    return looked_up(image, {1, 0, 0}, 0)[0];
+  };
+  std::string of_tiff, of_exr;
+  CHECK(value(ImageFormat::Tiff, SampleType::Float, "f.tif", &of_tiff) ==
+        Approx(0.25).margin(2e-5));
+  CHECK(value(ImageFormat::Exr, SampleType::Half, "h.exr", &of_exr) == Approx(0.25).margin(2e-5));
+  CHECK_THAT(of_tiff, Catch::Contains("its colours are floats, which are taken as linear light"));
+  CHECK(of_exr.empty());
+  // 64/255 of bytes: ((0.25098 + 0.055) / 1.055)^2.4
+  CHECK(value(ImageFormat::Tiff, SampleType::Uint8, "u.tif") == Approx(0.05127).margin(2e-5));
+}
+
+TEST_CASE("equirectangular: greys of 16 bits that end far below white are refused") {
+  const Folder folder;
+  Image heights(4, 2, 1);
+  const auto read = [&](float greatest) {
+    heights.pixels[3] = greatest;
+    write_image(folder / "dem.png", heights, {.sample_type = SampleType::Uint16});
+    return read_equirectangular(folder / "dem.png");
+  };
+  CHECK_THROWS_WITH(read(2000 / 65535.0F), Catch::Contains("a vertex would have one of 9") &&
+                                               Catch::Contains("-scale 0 2000 0 65535"));
+  CHECK_NOTHROW(read(0.25F));
+  CHECK_NOTHROW(read(0));
+}
+
+TEST_CASE("equirectangular: an image of nodes is told") {
+  CHECK_THAT(warning_of_shape("a.png", 361, 181),
+             Catch::Contains("resample the image to 360 × 180"));
+  for (const auto& [width, height] : {std::pair(360, 180), std::pair(361, 180), std::pair(2, 1)})
+    CHECK(warning_of_shape("a.png", width, height).empty());
+}
+
 TEST_CASE("equirectangular: conventions put longitude where their viewers have it") {
   Image stripe(64, 32, 3);  // white about u = 1/4
   for (int y = 0; y < 32; ++y) {

@@ -134,7 +134,8 @@ int run_paint(PaintArguments& arguments) {
 void declare_options(Declaration& command, PaintArguments& arguments) {
   command.input("MESH", arguments.input, "A map or a mesh; - for standard input")
       .text("--image", arguments.image, "IMAGE",
-            "The equirectangular image: PNG, JPEG, WebP, TIFF, BMP, TGA (sRGB) or EXR (linear)")
+            "The equirectangular image: PNG, JPEG, WebP, TIFF, BMP, TGA (sRGB; floats: linear) or "
+            "EXR (linear)")
       .required()
       .convention(arguments.convention)
       .sphere(arguments.sphere)

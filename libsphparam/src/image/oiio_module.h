@@ -119,6 +119,8 @@ constexpr char sphparam_image_no_memory[] = "not enough memory";
 /// The name under which `decode` tells, as a text, what profile colours are in, where it is not
 /// that of sRGB.
 constexpr char sphparam_other_profile[] = "sphparam:other-profile";
+/// The name under which it tells, as a text, what a sample is: OpenImageIO's word, "uint8".
+constexpr char sphparam_samples[] = "sphparam:samples";
 /// The name of a text that tells of a JPEG without an end whose pixels are all there.
 constexpr char sphparam_lacks_end[] = "sphparam:lacks-end";
 constexpr char sphparam_image_table_name[] = "sphparam_image_table";

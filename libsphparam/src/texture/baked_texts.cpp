@@ -29,6 +29,11 @@ std::string_view baked_text(const ImageTexts& texts, std::string_view key) {
   return {};
 }
 
+bool has_float_samples(const ImageTexts& texts) {
+  const std::string_view samples = baked_text(texts, samples_text);
+  return samples == "half" || samples == "float" || samples == "double";
+}
+
 bool is_measured(const ImageTexts& texts) {
   static constexpr std::string_view maps[] = {
       "position",  "height",    "lon",       "lat",  "lonlat", "radius",  "slope",

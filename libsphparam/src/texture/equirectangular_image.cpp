@@ -73,14 +73,37 @@ double share_beyond_colours(const Image& image) {
 
 /// Heights in metres, say, would all be white or black. Light may be brighter than white: in words,
 /// how much of it is; empty: nothing. Throws: ImageError where that is too much.
-std::string words_of_light(const std::string& path, const Image& image, bool linear) {
-  const double most = linear ? 0.5 : 0.01, share = share_beyond_colours(image);
+std::string words_of_light(const std::string& path, const Image& image) {
+  const bool is_light = image_format_of(path) == ImageFormat::Exr;
+  const double most = is_light ? 0.5 : 0.01, share = share_beyond_colours(image);
   if (share == 0) return "";
   if (share <= most)
     return percent(share) + " of its pixels have values outside of 0 to 1, which are cut to that";
   throw ImageError(display_name(path) + ": no colours: " + percent(share) +
                    " of its pixels have values outside of 0 to 1; numbers that are measured are "
                    "scaled to that before they are painted");
+}
+
+/// Of an image of one channel, more than 8 bits of which the brightest values are not used: heights
+/// in metres, say, would be a few greys. Throws ImageError.
+void require_greys(const std::string& path, const Image& image, const ImageTexts& texts) {
+  const std::string_view samples = baked_text(texts, samples_text);
+  const bool is_fine = samples.starts_with("uint") && samples != "uint8";
+  if (!is_fine || image.channels > 2 || !baked_text(texts, "sphparam:map").empty()) return;
+  constexpr float least = 0.25F;
+  constexpr double steps = 65535;
+  float greatest = 0;
+  for (size_t i = 0; i < image.pixels.size(); i += static_cast<size_t>(image.channels))
+    greatest = std::max(greatest, image.pixels[i]);
+  if (greatest == 0 || greatest >= least) return;
+  const std::string name = display_name(path);
+  const std::string top =
+      samples == "uint16" ? shortest(std::round(steps * static_cast<double>(greatest))) : "MAX";
+  throw ImageError(name + ": no colours: its greys end at " + percent(greatest) +
+                   " of white, as numbers that are measured do, and a vertex would have one of " +
+                   std::to_string(std::lround(255 * greatest) + 1) +
+                   "; scale them first (gdal_translate -ot UInt16 -scale 0 " + top + " 0 65535 " +
+                   name + " scaled.tif)");
 }
 
 }  // namespace
@@ -109,25 +132,34 @@ int EquirectangularImage::height() const { return pyramid_->levels().front().hei
 bool EquirectangularImage::has_alpha() const { return pyramid_->has_alpha(); }
 
 std::string warning_of_shape(const std::string& path, int width, int height) {
+  const std::string size =
+      display_name(path) + ": " + std::to_string(width) + " × " + std::to_string(height);
+  // No image of `bake`, which rounds half an odd width down.
+  if (width == 2 * height - 1)
+    return size +
+           ": numbers at nodes have a row for each pole and the first column twice; they are taken "
+           "as texels, up to half a texel from where they stand (resample the image to " +
+           std::to_string(width - 1) + " × " + std::to_string(height - 1) + ")";
   if (std::abs(width - 2 * height) <= 1) return "";
-  return display_name(path) + ": " + std::to_string(width) + " × " + std::to_string(height) +
-         ": an equirectangular image of the whole sphere is twice as wide as high";
+  return size + ": an equirectangular image of the whole sphere is twice as wide as high";
 }
 
 EquirectangularImage read_equirectangular(const std::string& path, Convention convention,
                                           int threads) {
-  const bool linear = image_format_of(path) == ImageFormat::Exr;
   ImageTexts texts;
   const Image image = read_image(path, {}, &texts);
+  const bool linear = has_float_samples(texts);
   if (const auto baked = baked_convention_of(texts); baked && *baked != convention) {
     const std::string name = info_of(*baked).name;
     throw ImageOfOtherConvention(display_name(path) + " is baked in the convention " + name +
                                  ", and would be read in " + info_of(convention).name +
                                  ": convention " + name + " reads it as it is");
   }
-  const std::string light = words_of_light(path, image, linear);
-  return {std::make_shared<const TexturePyramid>(image, linear, threads), convention,
-          file_warning(display_name(path), texts, linear, light),
+  require_greys(path, image, texts);
+  const std::string light = words_of_light(path, image);
+  return {std::make_shared<const TexturePyramid>(image, linear, threads, SeenTexels(),
+                                                 ImageRows::Parallels),
+          convention, file_warning(display_name(path), texts, TexelKind::Colour, light),
           std::string(baked_text(texts, rays_text))};
 }
 

@@ -95,14 +95,20 @@ DecodedTexture decode(const MeshFile& file, const MaterialTexture& colour, const
                                      image_of(parts->specular, what), linear, threads);
   } else {
     const std::vector<char> bytes = bytes_of(colour, what);
-    linear |= is_exr(bytes);
     image = decode_image(bytes, what, {}, &texts);
+    linear |= has_float_samples(texts);
   }
   const bool heights = colour.bump != 0 && is_grey(image);
   if (heights) image = normals_of_heights(image, colour);
   const SeenTexels seen = seen_texels(file, origin_of(colour), image.width, image.height, threads);
   return {std::make_shared<const TexturePyramid>(image, linear, threads, seen), heights,
-          file_warning(colour.image, texts, linear)};
+          file_warning(colour.image, texts, kind)};
+}
+
+/// Programs differ on floats of these; of an EXR they agree.
+bool is_strangers_tiff(const std::string& image, const ImageTexts& texts) {
+  const std::string extension = extension_of(image);
+  return (extension == ".tif" || extension == ".tiff") && baked_text(texts, "sphparam:map").empty();
 }
 
 /// As `note_nearest` has it.
@@ -136,11 +142,12 @@ std::string why_unusable(const MaterialTexture& texture) try {
   return why.substr(0, why.find('\n'));
 }
 
-std::string file_warning(const std::string& image, const ImageTexts& texts, bool linear,
+std::string file_warning(const std::string& image, const ImageTexts& texts, TexelKind kind,
                          const std::string& more) {
+  const bool is_colour = kind == TexelKind::Colour, is_float = has_float_samples(texts);
   std::vector<std::string> words;
   const std::string_view profile = baked_text(texts, other_profile_text);
-  if (!linear && !profile.empty())
+  if (is_colour && !is_float && !profile.empty())
     words.push_back("its colours are taken as sRGB; its colour profile, " + std::string(profile) +
                     ", is not heeded (convert the image to sRGB)");
   if (!baked_text(texts, lacks_end_text).empty())
@@ -149,6 +156,8 @@ std::string file_warning(const std::string& image, const ImageTexts& texts, bool
     words.push_back("its pixels are what was measured (" +
                     std::string(baked_text(texts, "sphparam:about")) +
                     "), and taken as colours; a PNG of it is scaled from dark to bright");
+  if (is_colour && is_float && is_strangers_tiff(image, texts))
+    words.emplace_back("its colours are floats, which are taken as linear light, as an EXR's are");
   if (!more.empty()) words.push_back(more);
   return words.empty() ? "" : image + ": " + joined(words, "; ");
 }
@@ -172,14 +181,14 @@ ImageOrigin origin_of(const MaterialTexture& texture) {
 
 SourceTexture read_texture(const MeshFile& file, const std::string& path, TextureWrap wrap,
                            int threads) {
-  const bool linear = extension_of(path) == ".exr";
   ImageTexts texts;
   const Image image = read_image(path, {}, &texts);
+  const bool linear = has_float_samples(texts);
   const SeenTexels seen = seen_texels(file, wrap, image.width, image.height, threads);
   return {.image = std::make_shared<const TexturePyramid>(image, linear, threads, seen),
           .wrap_s = wrap,
           .wrap_t = wrap,
-          .warning = file_warning(path, texts, linear)};
+          .warning = file_warning(path, texts, TexelKind::Colour)};
 }
 
 SourceTexture TextureReader::read(const MaterialTexture& said, const std::string& material) {

@@ -22,10 +22,14 @@ SourceTexture read_texture(const MeshFile& file, const std::string& path, Textur
 /// Throws: ImageError that names material and image, for one that is missing, broken or unusable.
 std::vector<SourceTexture> read_textures(const MeshFile& file, int threads);
 
-/// What of an image's file is not heeded, or missing: colours, which are not `linear`, are taken as
-/// sRGB, whatever profile it has, and numbers that were measured as colours; a JPEG may lack its
-/// end. `more`: what else is to be told of it. Empty: nothing.
-std::string file_warning(const std::string& image, const ImageTexts& texts, bool linear,
+/// Whether images hold colours, which are sRGB but for floats, or numbers.
+enum class TexelKind { Colour, Number };
+
+/// What of an image's file is not heeded, or missing, or to be known: colours in integers are taken
+/// as sRGB, whatever profile it has, floats of a TIFF that is not ours as linear light, and numbers
+/// that were measured as colours; a JPEG may lack its end. `more`: what else is to be told of it.
+/// Empty: nothing.
+std::string file_warning(const std::string& image, const ImageTexts& texts, TexelKind kind,
                          const std::string& more = "");
 
 /// What is to be told of them, each line once.
@@ -42,9 +46,6 @@ using ImageOrigin = std::tuple<std::string, std::string, std::shared_ptr<const s
 ImageOrigin origin_of(const MaterialTexture& texture);
 
 TextureWrap wrap_of(Wrapping wrapping);
-
-/// Whether images hold colours, which are sRGB but for those of EXR, or numbers.
-enum class TexelKind { Colour, Number };
 
 /// An image in memory, and whether it was one of heights, of which normals were made.
 struct DecodedTexture {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numbers>
 
 #include "elementary.h"
 #include "sphparam/parallel.h"
@@ -114,11 +115,15 @@ struct WeightedLevel {
   Weights weights;
 };
 
-WeightedLevel halved(const Level& fine, const Weights& weights, int threads) {
+/// The share of a sphere that lies north of a parallel, by its place in an image's rows.
+double from_pole(double place) { return (1 - elementary::cos(std::numbers::pi * place)) / 2; }
+
+WeightedLevel halved(const Level& fine, const Weights& weights, ImageRows of, int threads) {
   Level coarse = with_room(std::max(1, fine.width / 2), std::max(1, fine.height / 2));
   Weights coarse_weights(coarse.texels.size() / 4);
   const std::vector<BoxShares> columns = box_shares(fine.width, coarse.width),
-                               rows = box_shares(fine.height, coarse.height);
+                               rows = box_shares(fine.height, coarse.height,
+                                                 of == ImageRows::Parallels ? from_pole : nullptr);
   parallel_for(coarse.height, grain, threads, [&](std::int64_t first, std::int64_t last) {
     for (auto y = static_cast<size_t>(first); y < static_cast<size_t>(last); ++y) {
       for (size_t x = 0; x < columns.size(); ++x) {
@@ -367,12 +372,13 @@ class Sampler {
 
 }  // namespace
 
-TexturePyramid::TexturePyramid(const Image& image, bool linear, int threads, const SeenTexels& seen)
+TexturePyramid::TexturePyramid(const Image& image, bool linear, int threads, const SeenTexels& seen,
+                               ImageRows rows)
     : has_alpha_(image.channels == 2 || image.channels >= 4) {
   levels_.push_back(finest(image, linear, threads));
   std::vector<Weights> weights{Weights(seen)};
   while (levels_.back().width > 1 || levels_.back().height > 1) {
-    WeightedLevel next = halved(levels_.back(), weights.back(), threads);
+    WeightedLevel next = halved(levels_.back(), weights.back(), rows, threads);
     levels_.push_back(std::move(next.level));
     weights.push_back(std::move(next.weights));
   }

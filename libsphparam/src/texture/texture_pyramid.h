@@ -9,6 +9,10 @@
 
 namespace sphparam {
 
+/// What the rows of an image are: alike, or parallels of a sphere, of which those near the poles
+/// count less in means.
+enum class ImageRows : std::uint8_t { Alike, Parallels };
+
 /// The levels of an image, each half as wide and high down to one texel: means over boxes, in
 /// linear light. Four channels of 16 bits a texel: linear red, green, blue, and alpha.
 class TexturePyramid {
@@ -18,7 +22,7 @@ class TexturePyramid {
   /// near. Requires: at least one texel; `seen` of the image's size, or of all.
   /// Cost: 11 bytes a texel, two more while it is made.
   explicit TexturePyramid(const Image& image, bool linear = false, int threads = 0,
-                          const SeenTexels& seen = {});
+                          const SeenTexels& seen = {}, ImageRows rows = ImageRows::Alike);
 
   struct Level {
     int width, height;

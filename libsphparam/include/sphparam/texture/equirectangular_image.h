@@ -55,7 +55,7 @@ class EquirectangularImage {
 };
 
 /// The warning for people that an image is not twice as wide as high, as one of the whole sphere
-/// is; empty: it is, or misses that by one texel.
+/// is, or that it is of nodes, 2H − 1 wide; empty: it is neither, or misses that by one texel.
 std::string warning_of_shape(const std::string& path, int width, int height);
 
 /// An image that says it was baked in another convention than the one it is to be read in.
@@ -64,9 +64,10 @@ class ImageOfOtherConvention : public std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
-/// Reads an EXR, whose name says so: linear light, or one of the other formats, which hold sRGB.
+/// Reads an image: floats (EXR, TIFF) are linear light, integers sRGB.
 /// Throws: ImageError, also where what is measured (heights in metres) stands in its pixels, not
-/// colours: outside of 0 to 1 in more than 1 % of them, of an EXR in more than half;
+/// colours: outside of 0 to 1 in more than 1 % of them, of an EXR in more than half, or greys of 16
+/// bits that end below a quarter of white;
 /// ImageOfOtherConvention. Cost: 11 bytes a texel.
 EquirectangularImage read_equirectangular(const std::string& path,
                                           Convention convention = Convention::Sphparam,

@@ -12,6 +12,8 @@
 #include "sphparam/io/paths.h"
 #include "sphparam/io/read_options.h"
 #include "sphparam/texture/equirectangular_image.h"
+#include "srgb_curves.h"
+#include "texture/baked_texts.h"
 
 namespace sphparam {
 namespace {
@@ -66,6 +68,19 @@ bool stays(std::string_view bytes, const std::string& path, std::vector<std::str
   return false;
 }
 
+/// Floats as PNG has them: light as sRGB, unit normals of ours as ½ + ½·n.
+void as_integers(GivenImage& given, bool is_colour) {
+  const SrgbCurves& curves = SrgbCurves::get();
+  const auto channels = static_cast<std::size_t>(given.pixels.channels);
+  const std::size_t colours = channels < 3 ? 1 : 3;
+  const bool is_signed = baked_text(given.texts, "sphparam:min") == "-1";
+  for (std::size_t i = 0; i < given.pixels.pixels.size(); ++i) {
+    if (i % channels >= colours) continue;
+    float& x = given.pixels.pixels[i];
+    x = is_colour ? curves.to_srgb(x) : is_signed ? 0.5F + 0.5F * x : x;
+  }
+}
+
 }  // namespace
 
 GivenImage read_asset_image(const std::string& path, const std::string& name,
@@ -76,6 +91,7 @@ GivenImage read_asset_image(const std::string& path, const std::string& name,
     throw ImageError(path + ": glTF has no EXR: save it as .png (`sphparam bake -o NAME.png`)");
   GivenImage given{.asset = {name, {}}, .pixels = {}, .texts = {}};
   given.pixels = decode_image({bytes.begin(), bytes.end()}, path, {}, &given.texts);
+  if (has_float_samples(given.texts)) as_integers(given, name == "basecolor" || name == "emissive");
   std::string warning = warning_of_shape(path, given.pixels.width, given.pixels.height);
   if (!warning.empty()) warnings.push_back(std::move(warning));
   if (stays(bytes, path, warnings)) {

@@ -18,7 +18,8 @@ struct GivenImage {
 };
 
 /// PNG, WebP and such JPEG as all viewers show stay as they are, after they were decoded once;
-/// other JPEG, TIFF, BMP and TGA become PNG. Throws: ReadError, ImageError; also for EXR, whose
+/// other JPEG, TIFF, BMP and TGA become PNG, floats of colours (`name`: basecolor, emissive) as
+/// sRGB, of our normals as integers have them. Throws: ReadError, ImageError; also for EXR, whose
 /// numbers no viewer shows, and for a JPEG that is cut off. `warnings` gets one where it is not
 /// twice as wide as high, and where a JPEG does not stay.
 GivenImage read_asset_image(const std::string& path, const std::string& name,

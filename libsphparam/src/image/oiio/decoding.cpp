@@ -167,6 +167,8 @@ void decode_in_memory(const char* format, std::string_view bytes, SphparamImageL
   const OIIO::ImageSpec seen = is_placed ? seen_spec(spec) : spec;
   require_within(limits, seen, any_size);
   if (text.take) {
+    tell(text, sphparam_samples,
+         spec.format.c_str());  // the first of this name, whatever a file says
     tell_texts(spec, text);
     const std::string profile = other_profile(spec);
     if (!profile.empty()) tell(text, sphparam_other_profile, profile);
