@@ -328,11 +328,11 @@ def test_edges_that_are_longer_are_halved():
     box = sp.Mesh([[0, 0, 0], [4, 0, 0], [4, 1, 0], [0, 1, 0], [0, 0, 1], [4, 0, 1], [4, 1, 1], [0, 1, 1]],
                   [[0, 2, 1], [0, 3, 2], [4, 5, 6], [4, 6, 7], [0, 1, 5], [0, 5, 4],
                    [1, 2, 6], [1, 6, 5], [2, 3, 7], [2, 7, 6], [3, 0, 4], [3, 4, 7]],
-                  values={"x": [0, 4, 4, 0, 0, 4, 4, 0]})  # fmt: skip
+                  values={"along": [0, 4, 4, 0, 0, 4, 4, 0]})  # fmt: skip
     cut = sp.repair(box, edge_length=0.5)
     ends = cut.vertices[cut.faces]
     assert np.linalg.norm(ends - np.roll(ends, 1, axis=1), axis=2).max() <= 0.5
-    assert np.array_equal(cut.values["x"], cut.vertices[:, 0])
+    assert np.array_equal(cut.values["along"], cut.vertices[:, 0])
     mapped = sp.map(box, repair=dict(edge_share=0.5 / np.sqrt(18)))
     assert mapped.certificate.one_to_one and len(mapped.points) == len(cut.vertices)
     with pytest.raises(ValueError, match="edge_length: from 0 is needed"):
