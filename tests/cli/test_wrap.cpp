@@ -89,6 +89,44 @@ TEST_CASE("wrap command: the largest part alone, in the report too") {
   CHECK(report["triangles"] == read_mesh(out).mesh.face_count());
 }
 
+TEST_CASE("wrap command: a skin about an open ball is told, with the distance that closes it") {
+  const Folder folder;
+  const std::string out = folder / "w.ply";
+  TriangleMesh ball = icosphere(3);
+  ball.triangles = ball.triangles.bottomRows(ball.face_count() - 100).eval();
+  const auto wrapped = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> line = {"wrap", "-", "-o", out, "--voxel", "0.1", "--json", "-"};
+    line.insert(line.end(), more.begin(), more.end());
+    return sphparam_program(line, obj_text(ball));
+  };
+  const Ended ended = wrapped({});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  const Json report = Json::parse(ended.out);
+  CHECK(report["skin"] == true);
+  const double volume = inspect_mesh(read_mesh(out).mesh).volume;
+  CHECK(report["volume"].get<double>() == Approx(volume).epsilon(1e-6));
+  CHECK(report["soup_area"].get<double>() == Approx(inspect_mesh(ball).area).epsilon(1e-6));
+  CHECK_THAT(ended.err, Contains("encloses no more than a skin about open sheets") &&
+                            Contains("; about --distance " + report["closing_distance"].dump()));
+  const Ended closed = wrapped({"--distance", report["closing_distance"].dump()});
+  CHECK(Json::parse(closed.out)["skin"] == false);
+  CHECK(Json::parse(closed.out)["closing_distance"].is_null());
+  CHECK_THAT(closed.err, !Contains("skin") && Contains("the wrap encloses "));
+}
+
+TEST_CASE("wrap command: a voxel larger than the soup is told") {
+  const Folder folder;
+  const auto said = [&](const char* voxel) {
+    return sphparam_program({"wrap", "-", "-o", folder / "w.ply", "--voxel", voxel},
+                            obj_text(icosphere(2)))
+        .err;
+  };
+  CHECK_THAT(said("2.5"), Contains("a voxel of 2.5 is larger than all of the soup, 2: "));
+  CHECK_THAT(said("1.5"), Contains("a distance of 3 is larger than all of the soup, 2: "));
+  CHECK_THAT(said("0.5"), !Contains("larger than"));
+}
+
 TEST_CASE("wrap command: the same file for any number of threads") {
   const Folder folder;
   for (const char* threads : {"1", "2"}) {

@@ -22,6 +22,7 @@ def test_open_parts_become_one_surface_that_maps(soup):
     assert found.distance == 2 * found.voxel
     assert abs(found.apart.forth.mean - found.distance) < found.voxel
     assert found.lattice[0] == max(found.lattice) > 64
+    assert not found.skin and found.volume == pytest.approx(sp.inspect(found.mesh).volume)
 
 
 def test_the_largest_part_alone_and_fewer_triangles(soup):

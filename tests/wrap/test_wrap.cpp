@@ -67,6 +67,32 @@ TEST_CASE("wrap: an open sheet is enclosed from both sides") {
   check_shell(wrap);
 }
 
+TEST_CASE("wrap: of an open ball a skin is solid, until the distance closes what is open") {
+  TriangleMesh open = icosphere(4);
+  Eigen::Index kept = 0;  // below an opening of radius 0.4
+  for (Face f = 0; f < open.face_count(); ++f)
+    if (open.position(open.triangles(f, 0)).z() < 0.9165)
+      open.triangles.row(kept++) = open.triangles.row(f);
+  open.triangles.conservativeResize(kept, 3);
+  const Wrap skin = wrap_soup(open, {.voxel = 0.05, .distance = 0.1});
+  CHECK(skin.skin);
+  CHECK(skin.volume == inspect_mesh(skin.mesh).volume);
+  CHECK(skin.area == inspect_mesh(skin.mesh).area);
+  CHECK(skin.soup_area == inspect_mesh(open).area);
+  CHECK(skin.volume == Approx(0.2 * skin.soup_area).epsilon(0.05));
+  const double closing = closing_distance(open, 0.1, 1);
+  CHECK(closing == 0.38);
+  CHECK(closing_distance(open, 0.1, 2) == closing);
+  const Wrap body = wrap_soup(open, {.voxel = 0.05, .distance = closing});
+  CHECK_FALSE(body.skin);
+  CHECK(body.insides == 1);
+  const double radius = 1 + closing;
+  CHECK(body.volume == Approx(4 * std::numbers::pi / 3 * radius * radius * radius).epsilon(0.03));
+  CHECK_FALSE(wrap_soup(icosphere(3), {.resolution = 40}).skin);
+  CHECK(wrap_soup(sheet(), {.resolution = 40}).skin);
+  CHECK(closing_distance(sheet(), 6.0 / 40) == 0);
+}
+
 TEST_CASE("wrap: triangles that pass through one another, turned inside out, and needles") {
   TriangleMesh soup = joined(icosphere(2), moved(icosphere(2), {0.7, 0.1, 0}));
   soup.triangles.row(0).reverseInPlace();

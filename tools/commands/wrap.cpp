@@ -14,6 +14,7 @@
 #include "console/places.h"
 #include "io/attributes/authorship.h"
 #include "io/attributes/remarks.h"
+#include "mesh/box.h"
 #include "number_text.h"
 #include "reports/told_losses.h"
 #include "sphparam/io/certified_files.h"
@@ -80,6 +81,17 @@ Wrap wrapped(const WrapArguments& arguments, const MeshFile& soup, Session& sess
   throw UsageMistake(std::string("--") + error.what());
 }
 
+/// Tells of a voxel or distance that is larger than all of the soup: nothing of that is seen then.
+void tell_size(const MeshFile& soup, const Wrap& wrap, Session& session) {
+  const double side = surface_box(soup.mesh).longest_side(),
+               coarse = std::max(wrap.voxel, wrap.distance);
+  if (coarse <= side) return;
+  session.warn({"a " + std::string(wrap.voxel > side ? "voxel" : "distance") + " of " +
+                short_number(wrap.voxel > side ? wrap.voxel : wrap.distance) +
+                " is larger than all of the soup, " + short_number(side) +
+                ": the wrap shows nothing of it; are both in one unit, not in mm and m?"});
+}
+
 int run_wrap(WrapArguments& arguments) {
   require_sensible(arguments);
   Session session(arguments);
@@ -90,6 +102,7 @@ int run_wrap(WrapArguments& arguments) {
       with_places_told(arguments.input, read_surface(arguments.input, session, options), session);
   session.hold_signals();
   const Wrap wrap = wrapped(arguments, soup, session);
+  tell_size(soup, wrap, session);
   MeshFile file;
   file.mesh = wrap.mesh;
   file.comments = {"wrapped about " + display_name(arguments.input) + " at distance " +
@@ -103,6 +116,8 @@ int run_wrap(WrapArguments& arguments) {
   WrapRecord record = {arguments.input, soup, wrap, {{"mesh", arguments.output}}};
   session.console.progress("crossings", 0);
   record.crossings = crossings_of(wrap, session.threads());
+  if (wrap.skin)
+    record.closing_distance = closing_distance(soup.mesh, wrap.distance, session.threads());
   session.warn(warnings_of(record));
   record.seconds = session.stopwatch.seconds();
   session.add_report([&] { return to_json(record); });

@@ -12,6 +12,8 @@ namespace sphparam {
 
 namespace {
 
+constexpr int figure_digits = 6;
+
 double outside_share(const Wrap& wrap) {
   return static_cast<double>(wrap.outside) / static_cast<double>(wrap.soup_vertices);
 }
@@ -41,6 +43,29 @@ std::string distance_line(const Wrap& wrap) {
          short_number(off.min) + " to " + short_number(off.max);
 }
 
+std::string size_line(const Wrap& wrap) {
+  return "the wrap encloses " + short_number(wrap.volume, figure_digits) + ", its area is " +
+         short_number(wrap.area, figure_digits) + ", that of the soup " +
+         short_number(wrap.soup_area, figure_digits) +
+         (wrap.skin ? ": a skin about open sheets" : "");
+}
+
+std::string crossings_warning(const SelfCrossings& found, const Wrap& wrap) {
+  return std::to_string(found.faces) + " of " +
+         counted(wrap.mesh.face_count(), "triangle", "triangles") + " of the wrap cross others (" +
+         counted(found.pairs, "pair", "pairs") + ", the first at (" +
+         place_text(found.place, longest_side(wrap.mesh)) +
+         ")): with all triangles of the lattice (--faces 0) and no --gap none do";
+}
+
+std::string skin_warning(const Wrap& wrap, double closing_distance) {
+  return "the wrap encloses no more than a skin about open sheets, " +
+         short_number(wrap.volume, figure_digits) +
+         " in all: the soup is open in places that are wider than twice the distance, " +
+         short_number(wrap.distance) + "; about --distance " + shortest(closing_distance) +
+         " closes them, and what is within becomes solid";
+}
+
 /// Empty: nothing.
 std::string left_behind(const MeshFile& soup) {
   std::vector<std::string> kinds;
@@ -63,54 +88,59 @@ std::optional<SelfCrossings> crossings_of(const Wrap& wrap, int threads) {
 }
 
 std::vector<std::string> warnings_of(const WrapRecord& record) {
-  if (!record.crossings || record.crossings->pairs == 0) return {};
-  const SelfCrossings& found = *record.crossings;
-  return {std::to_string(found.faces) + " of " +
-          counted(record.wrap.mesh.face_count(), "triangle", "triangles") +
-          " of the wrap cross others (" + counted(found.pairs, "pair", "pairs") +
-          ", the first at (" + place_text(found.place, longest_side(record.wrap.mesh)) +
-          ")): with all triangles of the lattice (--faces 0) and no --gap none do"};
+  std::vector<std::string> warnings;
+  if (record.crossings && record.crossings->pairs > 0)
+    warnings.push_back(crossings_warning(*record.crossings, record.wrap));
+  if (record.closing_distance > 0)
+    warnings.push_back(skin_warning(record.wrap, record.closing_distance));
+  return warnings;
 }
 
 std::string to_json(const WrapRecord& record) {
   const Wrap& wrap = record.wrap;
   const OneSidedDistance& off = wrap.apart.forth;
-  return text_of({{"sphparam", version},
-                  {"command", "wrap"},
-                  {"input",
-                   {{"file", record.input},
-                    {"format", record.soup.format},
-                    {"vertices", record.soup.mesh.vertex_count()},
-                    {"triangles", record.soup.mesh.face_count()},
-                    {"notes", record.soup.notes}}},
-                  {"voxel", wrap.voxel},
-                  {"distance", wrap.distance},
-                  {"gap", wrap.gap},
-                  {"lattice", wrap.lattice},
-                  {"parts", wrap.parts},
-                  {"kept_share", wrap.kept_share},
-                  {"insides", wrap.insides},
-                  {"cavities", wrap.cavities},
-                  {"handles", wrap.handles},
-                  {"added_share", wrap.added_share},
-                  {"lattice_triangles", wrap.lattice_faces},
-                  {"soup_vertices", wrap.soup_vertices},
-                  {"outside", wrap.outside},
-                  {"outside_share", outside_share(wrap)},
-                  {"vertices", wrap.mesh.vertex_count()},
-                  {"triangles", wrap.mesh.face_count()},
-                  {"from_soup",
-                   {{"mean", off.mean},
-                    {"RMS", off.rms},
-                    {"min", off.min},
-                    {"max", off.max},
-                    {"max_bound", off.max_bound},
-                    {"farthest", vector_json(off.farthest)}}},
-                  {"soup_to_wrap_max", wrap.apart.back.max},
-                  {"crossings", record.crossings ? crossings_json(*record.crossings) : Json()},
-                  {"warnings", warnings_of(record)},
-                  {"outputs", pairs_json(record.outputs)},
-                  {"seconds", record.seconds}});
+  return text_of(
+      {{"sphparam", version},
+       {"command", "wrap"},
+       {"input",
+        {{"file", record.input},
+         {"format", record.soup.format},
+         {"vertices", record.soup.mesh.vertex_count()},
+         {"triangles", record.soup.mesh.face_count()},
+         {"notes", record.soup.notes}}},
+       {"voxel", wrap.voxel},
+       {"distance", wrap.distance},
+       {"gap", wrap.gap},
+       {"lattice", wrap.lattice},
+       {"parts", wrap.parts},
+       {"kept_share", wrap.kept_share},
+       {"insides", wrap.insides},
+       {"cavities", wrap.cavities},
+       {"skin", wrap.skin},
+       {"closing_distance", record.closing_distance > 0 ? Json(record.closing_distance) : Json()},
+       {"handles", wrap.handles},
+       {"added_share", wrap.added_share},
+       {"lattice_triangles", wrap.lattice_faces},
+       {"soup_vertices", wrap.soup_vertices},
+       {"outside", wrap.outside},
+       {"outside_share", outside_share(wrap)},
+       {"vertices", wrap.mesh.vertex_count()},
+       {"triangles", wrap.mesh.face_count()},
+       {"volume", wrap.volume},
+       {"area", wrap.area},
+       {"soup_area", wrap.soup_area},
+       {"from_soup",
+        {{"mean", off.mean},
+         {"RMS", off.rms},
+         {"min", off.min},
+         {"max", off.max},
+         {"max_bound", off.max_bound},
+         {"farthest", vector_json(off.farthest)}}},
+       {"soup_to_wrap_max", wrap.apart.back.max},
+       {"crossings", record.crossings ? crossings_json(*record.crossings) : Json()},
+       {"warnings", warnings_of(record)},
+       {"outputs", pairs_json(record.outputs)},
+       {"seconds", record.seconds}});
 }
 
 std::vector<std::string> to_lines(const WrapRecord& record) {
@@ -128,6 +158,7 @@ std::vector<std::string> to_lines(const WrapRecord& record) {
   lines.push_back(std::to_string(wrap.outside) + " of " + std::to_string(wrap.soup_vertices) +
                   " vertices are outside (" + percent(outside_share(wrap)) + ")");
   lines.push_back(distance_line(wrap));
+  lines.push_back(size_line(wrap));
   if (const std::string left = left_behind(record.soup); !left.empty()) lines.push_back(left);
   return lines;
 }

@@ -128,6 +128,15 @@ Solid surrounded(const Lattice& lattice, const std::vector<float>& field,
   return marks;
 }
 
+double hollow_share(const std::vector<float>& field, const Solid& solid) {
+  std::int64_t hollow = 0, all = 0;
+  for (size_t i = 0; i < solid.size(); ++i) {
+    all += solid[i];
+    hollow += solid[i] && field[i] > 0;
+  }
+  return all == 0 ? 0 : static_cast<double>(hollow) / static_cast<double>(all);
+}
+
 std::vector<std::int64_t> parts_of(const Lattice& lattice, const Solid& solid) {
   Solid marks = solid;
   std::vector<std::int64_t> sizes;

@@ -16,6 +16,10 @@ using Solid = std::vector<std::uint8_t>;
 Solid surrounded(const Lattice& lattice, const std::vector<float>& field,
                  std::vector<std::int64_t>& hollows);
 
+/// Which share of a solid lies where the value is more than 0: of what `surrounded` says, the
+/// hollows. 0 of none.
+double hollow_share(const std::vector<float>& field, const Solid& solid);
+
 /// The sizes in points of the solid's connected parts, in the order of their first points.
 std::vector<std::int64_t> parts_of(const Lattice& lattice, const Solid& solid);
 

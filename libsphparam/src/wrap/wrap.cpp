@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "measure/enclosure.h"
 #include "mesh/box.h"
 #include "number_text.h"
 #include "option_domain.h"
@@ -34,6 +35,7 @@ constexpr double most_points = 1e8;   // of a lattice: 0.5 to 0.9 GB
 // Of the largest coordinate, so that lattices are regular.
 constexpr double roundings_a_voxel = 1e6;
 constexpr double largest_coordinate = 1e70, least_extent = 1e-60;  // fourth powers are doubles
+constexpr double next_to_nothing = 0.01;   // of what is solid, that is hollow in the soup
 constexpr std::int64_t samples = 100'000;  // of each surface, for their distance
 
 /// The largest coordinate, on either side of the origin.
@@ -205,6 +207,7 @@ Solid ball_about(const TriangleMesh& soup, const Lattice& lattice, const std::ve
   std::vector<std::int64_t> hollows;
   Solid solid = surrounded(lattice, field, hollows);
   count_hollows(soup, lattice, hollows, wrap);
+  wrap.skin = hollow_share(field, solid) < next_to_nothing && unclosed_edges(soup.triangles) > 0;
   const auto all = static_cast<double>(volume(solid));
   wrap.parts = static_cast<long>(parts_of(lattice, solid).size());
   if (options.largest && wrap.parts > 1) keep_largest(lattice, solid);
@@ -239,6 +242,13 @@ void count_outside(const TriangleMesh& soup, const std::vector<char>& used, int 
         }
         return outside;
       }));
+}
+
+void tell_sizes(const TriangleMesh& soup, Wrap& wrap) {
+  const MeshInspection found = inspect_mesh(wrap.mesh);
+  wrap.volume = found.volume;
+  wrap.area = found.area;
+  wrap.soup_area = inspect_mesh(soup).area;
 }
 
 SurfaceDistance distance_between(const TriangleMesh& wrap, const TriangleMesh& soup,
@@ -278,6 +288,7 @@ Wrap wrap_soup(const TriangleMesh& soup, const WrapOptions& options) {
   if (options.faces > 0)
     wrap.mesh = simplified(std::move(wrap.mesh), options.faces, options.progress);
   count_outside(soup, used, options.threads, wrap);
+  tell_sizes(soup, wrap);
   wrap.apart = distance_between(wrap.mesh, soup, options);
   return wrap;
 }

@@ -34,6 +34,9 @@ py::dict figures_of(const Wrap& wrap) {
   dict["handles"] = wrap.handles;
   dict["added_share"] = wrap.added_share;
   dict["kept_share"] = wrap.kept_share;
+  dict["skin"] = wrap.skin;
+  dict["volume"] = wrap.volume;
+  dict["area"] = wrap.area;
   dict["outside"] = wrap.outside;
   dict["apart"] = as_dict(wrap.apart);
   return dict;

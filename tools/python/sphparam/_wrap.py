@@ -36,6 +36,12 @@ class Wrap(NamedTuple):
     """Of the volume, what bridges and walls are."""
     kept_share: float
     """Of the volume, that of the part that was kept; 1 where all were joined."""
+    skin: bool
+    """It encloses no more than a skin about open sheets: what is open between them is wider than twice ``distance``."""
+    volume: float
+    """What it encloses, in units of the mesh."""
+    area: float
+    """Of its surface."""
     outside: int
     """Vertices that are not inside: of parts that were dropped, or cut by a surface with fewer triangles."""
     apart: Distance

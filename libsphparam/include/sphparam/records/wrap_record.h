@@ -19,6 +19,7 @@ struct WrapRecord {
   std::vector<std::pair<std::string, std::string>> outputs = {};  // what it is, where it is
   double seconds = 0;
   std::optional<SelfCrossings> crossings = {};  // of the wrap with itself; nothing: none by method
+  double closing_distance = 0;  // of a skin, from where on it encloses more; 0: nowhere
 };
 
 /// Those of a wrap whose triangles got fewer, or that was drawn in; nothing of others, which the
@@ -28,11 +29,13 @@ std::optional<SelfCrossings> crossings_of(const Wrap& wrap, int threads = 0);
 /// As `sphparam wrap --json` tells it.
 std::string to_json(const WrapRecord& record);
 
-/// What may be wrong with it, a line each: triangles that cross.
+/// What may be wrong with it, a line each: triangles that cross; a skin where a larger distance
+/// makes a body.
 std::vector<std::string> warnings_of(const WrapRecord& record);
 
 /// For people, a line each: what stood in the way of one ball and what became of it, what lies
-/// outside, how far the wrap is from the soup, what the soup carried and the wrap does not.
+/// outside, how far the wrap is from the soup, volume and areas, what the soup carried and the wrap
+/// does not.
 std::vector<std::string> to_lines(const WrapRecord& record);
 
 }  // namespace sphparam

@@ -50,6 +50,7 @@ struct Wrap {
   double gap = 0;     // as used; `distance` where the surface is not drawn in
   long insides = 0;   // of closed parts, as their faces look
   long cavities = 0;  // beside these, that nothing reaches from outside: solid now
+  bool skin = false;  // next to nothing of them, the soup is open: see `closing_distance`
   long handles = 0;   // what went through them is closed by walls, a voxel thick
   /// Of the volume, what was added to be rid of handles and to join parts.
   double added_share = 0;
@@ -59,6 +60,7 @@ struct Wrap {
   long soup_vertices = 0;  // that triangles use
   long outside = 0;        // of these; none unless `largest` dropped their parts, or options say so
   SurfaceDistance apart;   // forth: of the wrap from the soup; back: of the soup from the wrap
+  double volume = 0, area = 0, soup_area = 0;  // of the mesh, of the soup
 };
 
 /// Encloses any triangles (open, not manifold, in many parts, passing through one another) in one
@@ -86,5 +88,11 @@ struct Wrap {
 /// Ensures: `require_sphere` takes the mesh; the same bytes for any number of threads.
 /// Cost: 5 bytes a point of the lattice, 9 where it is carved; about 2 µs a point near the surface.
 Wrap wrap_soup(const TriangleMesh& soup, const WrapOptions& options = {});
+
+/// The distance, more than this one, from which on a wrap encloses more than a skin about open
+/// sheets, as it closes what is open between them: about, by the sight of a coarse lattice. 0: none
+/// that is a quarter of the soup's extent or less does. Requires: a soup that has a wrap.
+/// Ensures: the same bits for any number of threads. Cost: about a second.
+double closing_distance(const TriangleMesh& soup, double distance, int threads = 0);
 
 }  // namespace sphparam
