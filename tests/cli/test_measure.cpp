@@ -115,8 +115,104 @@ TEST_CASE("measure: --signed says which side, in the report, the table and the f
   const Ended refused = sphparam_program({"measure", balls.small, open, "--signed"});
   CHECK(refused.code == 4);
   CHECK_THAT(refused.err,
-             Contains("open.obj") && Contains("it is not closed") && Contains("3 edges are open"));
+             Contains("open.obj") && Contains("it is not closed") && Contains("3 edges are open") &&
+                 Contains("close it alone first, as `sphparam repair B -o closed.ply` does"));
   CHECK(sphparam_program({"measure", open, balls.small, "--signed"}).code == 0);
+}
+
+TEST_CASE("measure: colours of --signed are about 0 where all is outside, and over a --range") {
+  const Balls balls;
+  const std::string file = balls.folder / "d.ply";
+  const auto comment = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> line = {"measure", balls.large, balls.small,    "--samples",
+                                     "100",     "--signed",  "--per-vertex", file};
+    line.insert(line.end(), more.begin(), more.end());
+    REQUIRE(sphparam_program(line).code == 0);
+    return read_mesh(file).comments.back();
+  };
+  CHECK_THAT(comment({}), Contains("deviation: distance to small.obj, less than 0 inside, colours "
+                                   "from -0.5"));
+  CHECK(read_mesh(file).find_vertex_property("red")->values[0] >
+        read_mesh(file).find_vertex_property("blue")->values[0]);
+  CHECK_THAT(comment({"--range", "-0.1,0.1"}), Contains("colours from -0.1 to 0.1"));
+  for (const std::vector<std::string>& wrong :
+       {std::vector<std::string>{"--range", "0,1"},
+        {"--range", "1,0", "--per-vertex", file},
+        {"--range", "0,1", "--per-vertex", file, "--growth"}})
+    CHECK(balls.measure(wrong).code == 2);
+}
+
+TEST_CASE("measure: what A has already by the names of what is measured stays, by others") {
+  const Folder folder;
+  const std::string a = folder / "a.ply", b = folder / "b.obj", out = folder / "out.ply";
+  write_bytes(b, "v 0 0 2\nv 1 0 2\nv 0 1 2\nf 1 2 3\n");
+  write_bytes(a,
+              "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\n"
+              "property double z\nproperty double error\nproperty double error_a\n"
+              "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\n"
+              "property list uchar int vertex_indices\nend_header\n0 0 0 5 6 1 2 3\n"
+              "1 0 0 5 6 1 2 3\n0 1 0 5 6 1 2 3\n3 0 1 2\n");
+  const Ended ended =
+      sphparam_program({"measure", a, b, "--per-vertex", out, "--json", folder / "m.json"});
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.err, Contains("numbers that a.ply has already are called otherwise in out.ply: "
+                                 "error is error_a_a, red is red_a, green is green_a, blue is "
+                                 "blue_a"));
+  CHECK(Json::parse(bytes_of(folder / "m.json"))["renamed"] ==
+        Json({{"error", "error_a_a"}, {"red", "red_a"}, {"green", "green_a"}, {"blue", "blue_a"}}));
+  const MeshFile written = read_mesh(out);
+  const auto first = [&](const char* name) {
+    return written.find_vertex_property(name)->values.front();
+  };
+  CHECK(first("error") == 2);
+  CHECK(first("error_a") == 6);
+  CHECK(first("error_a_a") == 5);
+  CHECK(first("green_a") == 2);
+  const Json report =
+      Json::parse(sphparam_program({"measure", b, a, "--per-vertex", out, "--json", "-"}).out);
+  CHECK(report["renamed"] == Json::object());
+}
+
+TEST_CASE("measure: median, percentiles and the share within a length, in report and table") {
+  const Folder folder;
+  const std::string a = folder / "a.obj", b = folder / "b.obj";
+  write_bytes(a, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  write_bytes(b, "v 0 0 2\nv 1 0 2\nv 0 1 2\nf 1 2 3\n");
+  const Ended ended = sphparam_program({"measure", a, b, "--within", "2", "--json", "-"});
+  const Json report = Json::parse(ended.out);
+  for (const char* way : {"first_to_second", "second_to_first"}) {
+    for (const char* key : {"median", "P95", "P99"}) CHECK(report[way][key] == 2.0);
+    CHECK(report[way]["SD"] == 0.0);
+    CHECK(report[way]["within"] == Json({{"length", 2.0}, {"share", 1.0}}));
+  }
+  CHECK(report["two_sided"]["HD95"] == 2.0);
+  // Of a diagonal of √2.
+  CHECK_THAT(sphparam_program({"measure", a, b, "--within", "100%"}).out,
+             Contains("\nthe larger 95 % (HD95): 2\n") &&
+                 Contains("\nwithin 1.41421: 0 % of 1, 0 % of 2\n"));
+  CHECK(sphparam_program({"measure", a, b, "--within", "-1"}).code == 2);
+}
+
+TEST_CASE("measure: one body in two units is asked after, a part of a whole is not") {
+  const Folder folder;
+  const auto file = [&](const char* name, double scale, double long_side) {
+    TriangleMesh ball = icosphere(2);
+    ball.positions.col(0) *= long_side;
+    ball.positions *= scale;
+    write_bytes(folder / name, obj_text(ball));
+    return folder / name;
+  };
+  const auto said = [&](const std::string& a, const std::string& b) {
+    return sphparam_program({"measure", a, b, "--samples", "100"}).err;
+  };
+  const std::string one = file("mm.obj", 10, 2), same = file("m.obj", 0.009, 2);
+  CHECK_THAT(said(one, same), Contains("m.obj is 1111 times smaller than mm.obj, and of the "
+                                       "same proportions: are both in one unit, not in mm and m?"));
+  CHECK_THAT(said(file("inch.obj", 0.4, 2), one), Contains("inch.obj is 25 times smaller than "
+                                                           "mm.obj") &&
+                                                      Contains("mm and inches"));
+  for (const std::string& other : {file("large.obj", 60, 2), file("part.obj", 0.01, 1)})
+    CHECK_THAT(said(one, other), !Contains("times smaller"));
 }
 
 TEST_CASE("measure: --growth says how areas grow between surfaces of the same triangles") {
@@ -143,6 +239,7 @@ TEST_CASE("measure: --growth says how areas grow between surfaces of the same tr
   }
   CHECK(written.find_vertex_property("error") != nullptr);
   CHECK(written.find_vertex_property("red")->values[0] == 253);
+  CHECK(std::ranges::count(written.comments, "error: distance to two.obj") == 1);
   CHECK_FALSE(
       Json::parse(sphparam_program({"measure", one, two, "--json", "-"}).out).contains("growth"));
   write_bytes(two, obj_text(icosphere(1)));

@@ -114,6 +114,40 @@ TEST_CASE("distance: the same bits for any number of threads, other samples for 
   CHECK(result.rms() == Approx(measure_distance(a, b, other).rms()).epsilon(0.01));
 }
 
+TEST_CASE("distance: percentiles, by nearest rank, and the share within a length") {
+  // A strip whose vertices are 1, 2, … 100 above a plane, or from 50 below it to 49 above.
+  TriangleMesh strip{Points(100, 3), Triangles(98, 3)};
+  for (int i = 0; i < 100; ++i) strip.positions.row(i) << 0.01 * i, i % 2, i + 1;
+  for (int f = 0; f < 98; ++f) strip.triangles.row(f) << f, f + 1, f + 2;
+  TriangleMesh ground = plane(1, 0);
+  ground.positions *= 400;
+  ground.positions.leftCols(2).array() -= 200;
+  DistanceOptions options{.faces = false, .vertices = true, .within = 10};
+  const double deviation = std::sqrt((100.0 * 100 - 1) / 12);
+  const OneSidedDistance found = measure_distance(strip, ground, options).forth;
+  CHECK(found.median == 50);
+  CHECK(found.p95 == 95);
+  CHECK(found.p99 == 99);
+  CHECK(found.sd == Approx(deviation).epsilon(1e-14));
+  CHECK(found.within == 0.1);
+  CHECK(measure_distance(strip, ground, options).p95() > 200);  // of the ground's corners
+  CHECK_FALSE(measure_distance(strip, ground, {.samples = 9}).forth.within);
+  options.within = -1;
+  CHECK_THROWS_AS(measure_distance(strip, ground, options), std::invalid_argument);
+
+  strip.positions.col(2).array() -= 51;
+  TriangleMesh block = cube();
+  block.positions = (block.positions.rowwise() - block.positions.colwise().mean()) * 400;
+  block.positions.col(2).array() -= block.positions.col(2).maxCoeff();
+  options = {.faces = false, .vertices = true, .deviations = true};
+  const SignedDeviation side = measure_distance(strip, block, options).forth.deviation.value();
+  CHECK(side.min == -50);
+  CHECK(side.max == 49);
+  CHECK(side.mean == -0.5);
+  CHECK(side.median == -1);
+  CHECK(side.sd == Approx(deviation).epsilon(1e-14));
+}
+
 TEST_CASE("distance: the maximum sees a spike that samples miss, and says where it is") {
   TriangleMesh spiky = icosphere(3);
   spiky.positions.row(100) *= 4;

@@ -471,6 +471,9 @@ def test_the_distance_of_every_vertex_and_its_side(mapped):
     side = inside.forth.deviation
     assert (side.at_vertices == -inside.forth.at_vertices).all() and (side.at_vertices < 0).all()
     assert (side.min, side.max, side.mean) == (-inside.forth.max, -inside.forth.min, -inside.forth.mean)
+    assert side.sd == inside.forth.sd and inside.forth.median < inside.forth.p95 < inside.forth.p99 < inside.forth.max
+    assert inside.p95 == max(inside.forth.p95, inside.back.p95) and inside.forth.within is None
+    assert sp.measure(mapped, (larger, F), samples=2000, within=inside.forth.p95).forth.within == 0.95
     outside = sp.measure((larger, F), mapped, samples=2000, signed=True).forth
     assert (outside.deviation.at_vertices == outside.at_vertices).all()
     assert (inside.back.at_vertices == outside.at_vertices).all()

@@ -221,3 +221,30 @@ TEST_CASE("coloured values: of both signs, blue to red as far both ways") {
   CHECK(channel("red", 3) > 200);
   CHECK(channel("green", 1) > channel("green", 2));
 }
+
+TEST_CASE("coloured values: blue to red about 0 where all are on one side, and over a range") {
+  const MeshFile ball = file_of(icosphere(0));
+  const VectorX values = VectorX::LinSpaced(12, 0, 2.75);
+  const MeshFile outside = with_coloured_values(ball, "deviation", values, "d", {.diverges = true});
+  CHECK(outside.comments[0] == "deviation: d, colours from -2.75 to 2.75");
+  const auto bytes = [](const MeshFile& file, size_t v) {
+    std::vector<double> channels;
+    for (const char* name : {"red", "green", "blue"})
+      channels.push_back(file.find_vertex_property(name)->values[v]);
+    return channels;
+  };
+  const auto bytes_of = [](const Rgb& colour) {
+    std::vector<double> channels;
+    for (const float channel : colour) channels.push_back(std::round(255 * double{channel}));
+    return channels;
+  };
+  CHECK(bytes(outside, 0) == bytes_of(diverging(0)));
+  CHECK(bytes(outside, 11) == bytes_of(diverging(1)));
+  const MeshFile ranged = with_coloured_values(ball, "deviation", values, "d",
+                                               {.diverges = true, .range = std::pair(-0.5, 0.5)});
+  CHECK(ranged.comments[0] == "deviation: d, colours from -0.5 to 0.5");
+  CHECK(bytes(ranged, 1) == bytes_of(diverging(0.5)));
+  CHECK(bytes(ranged, 11) == bytes_of(diverging(1)));
+  CHECK(bytes(with_coloured_values(ball, "error", values, "", {.range = std::pair(0.0, 0.5)}), 1) ==
+        bytes_of(viridis(0.5)));
+}

@@ -7,10 +7,14 @@
 #include <stdexcept>
 #include <utility>
 
+#include "arguments/ends.h"
 #include "commands/command.h"
 #include "commands/surfaces.h"
 #include "console/places.h"
 #include "elementary.h"
+#include "io/data_comments.h"
+#include "measure/enclosure.h"
+#include "mesh/box.h"
 #include "number_text.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/mesh_writer.h"
@@ -30,7 +34,8 @@ constexpr char summary[] =
     "  sphparam measure statue.obj statue_low.ply --samples 10000000 --json distance.json\n"
     "  sphparam measure statue.obj statue_low.ply --max-rms 0.1% || echo too far\n"
     "  sphparam measure statue.obj statue_low.ply --per-vertex error.ply\n"
-    "  sphparam measure scan.ply part.stl --signed --per-vertex deviation.ply\n"
+    "  sphparam measure scan.ply part.stl --signed --per-vertex deviation.ply --range -0.1,0.1\n"
+    "  sphparam measure scan.ply part.stl --within 0.1\n"
     "  sphparam measure visit1.sph.ply visit2.sph.ply --growth --per-vertex growth.ply\n"
     "\n"
     "Both directions: samples spread evenly over each surface, and their nearest points on the\n"
@@ -45,10 +50,11 @@ struct MeasureArguments : CommonArguments {
   DistanceOptions options;
   std::string sampled = "faces";
   std::string per_vertex;
-  RepairArguments repair;                       // of both
-  bool upright = false;                         // as their files say what is up
-  bool growth = false;                          // of areas: both have the same triangles
-  std::optional<Amount> max_rms, max_distance;  // % of the diagonal of the first's bounding box
+  RepairArguments repair;                               // of both
+  bool upright = false;                                 // as their files say what is up
+  bool growth = false;                                  // of areas: both have the same triangles
+  std::optional<std::pair<double, double>> range;       // of the colours
+  std::optional<Amount> max_rms, max_distance, within;  // % of the diagonal of the first's box
 };
 
 void settle_sampled(const std::string& text, DistanceOptions& options) {
@@ -68,7 +74,20 @@ void require_sensible(const MeasureArguments& arguments) {
         "in " +
         extension);
   }
+  if (arguments.range && arguments.per_vertex.empty())
+    throw UsageMistake("--range is of the colours of --per-vertex: name a file for these");
+  if (arguments.range && arguments.growth)
+    throw UsageMistake("--range is of the colours of distances: with --growth they are of areas");
   check_places({{"--per-vertex", arguments.per_vertex}, {"--json", arguments.json}});
+}
+
+/// What closes the second, where that is what is wrong; else empty.
+std::string way_on(const MeasureArguments& arguments, const MeshFile& second, Side side) {
+  const bool is_open = side == Side::Second && arguments.options.deviations &&
+                       second.mesh.face_count() > 0 && unclosed_edges(second.mesh.triangles) > 0;
+  if (!is_open) return "";
+  return "; close it alone first, as `sphparam repair B -o closed.ply` does with holes, or "
+         "`sphparam wrap` with anything else, and give closed.ply as B (--repair mends A as well)";
 }
 
 SurfaceDistance measure(const MeasureArguments& arguments, const MeshFile& first,
@@ -81,7 +100,7 @@ SurfaceDistance measure(const MeasureArguments& arguments, const MeshFile& first
   const bool first_is_it = error.side() == Side::First;
   const std::string name = display_name(first_is_it ? arguments.first : arguments.second);
   if ((first_is_it ? first : second).mesh.face_count() == 0) throw ReadError(name, error.what());
-  throw UnmeasurableMesh(name + ": " + error.what());
+  throw UnmeasurableMesh(name + ": " + error.what() + way_on(arguments, second, error.side()));
 }
 
 std::vector<DistanceLimit> judge(const MeasureArguments& arguments,
@@ -94,6 +113,42 @@ std::vector<DistanceLimit> judge(const MeasureArguments& arguments,
   judge_one("--max-rms", arguments.max_rms, distance.rms());
   judge_one("--max-distance", arguments.max_distance, distance.max());
   return limits;
+}
+
+/// Sides of the box about the triangles, ascending.
+Vector3 sides_of(const MeshFile& file) {
+  const Box box = surface_box(file.mesh);
+  Vector3 sides = box.upper - box.lower;
+  std::ranges::sort(sides);
+  return sides;
+}
+
+/// Two units of which one is so many of the other.
+struct UnitRatio {
+  double ratio;
+  const char* words;
+};
+constexpr std::array unit_ratios = {UnitRatio{10, "mm and cm"}, UnitRatio{25.4, "mm and inches"},
+                                    UnitRatio{100, "cm and m"}, UnitRatio{1000, "mm and m"}};
+
+/// One body in two units? A part of a whole, or another body, is rarely of the same proportions and
+/// just so many times as large.
+void tell_units(const MeasureArguments& arguments, const MeshFile& first, const MeshFile& second,
+                Session& session) {
+  constexpr double alike = 0.15, about = 1.25;
+  const Vector3 one = sides_of(first), other = sides_of(second);
+  if (!(one[2] > 0 && other[2] > 0)) return;
+  if ((one / one[2] - other / other[2]).cwiseAbs().maxCoeff() > alike) return;
+  const double ratio = std::max(one[2] / other[2], other[2] / one[2]);
+  for (const UnitRatio& unit : unit_ratios) {
+    if (ratio < unit.ratio / about || ratio > unit.ratio * about) continue;
+    session.warn({display_name(one[2] < other[2] ? arguments.first : arguments.second) + " is " +
+                  short_number(ratio, 4) + " times smaller than " +
+                  display_name(one[2] < other[2] ? arguments.second : arguments.first) +
+                  ", and of the same proportions: are both in one unit, not in " + unit.words +
+                  "?"});
+    return;
+  }
 }
 
 Eigen::Matrix3d stance(const MeshFile& file) { return upright_rotation(upright_axes(file)); }
@@ -185,10 +240,18 @@ std::optional<Growth> growth_asked_for(const MeasureArguments& arguments, const 
                      "have, of two on one sphere `remesh`");
 }
 
+/// The colours are of something else.
+void forget_colours(std::vector<std::string>& comments) {
+  for (std::string& comment : comments)
+    if (comment.starts_with("error: ") || comment.starts_with("deviation: "))
+      comment.resize(std::min(comment.size(), comment.rfind(", colours from ")));
+}
+
 /// The areas of B over those of A, at vertices and faces, in colours of their logarithms.
 MeshFile with_growth(MeshFile file, const Growth& growth, const std::string& second) {
   const VectorX logarithms =
       growth.vertices.unaryExpr([](double x) { return x > 0 ? elementary::log(x) : 0.0; });
+  forget_colours(file.comments);
   file = with_coloured_values(std::move(file), "growth", logarithms,
                               "area in " + display_name(second) +
                                   " over that here; of its "
@@ -202,14 +265,54 @@ MeshFile with_growth(MeshFile file, const Growth& growth, const std::string& sec
   return file;
 }
 
+using Renamed = std::vector<std::pair<std::string, std::string>>;
+
+/// "error_a" of "error", as `match` calls what A has beside what is new.
+std::string free_name(const MeshFile& file, std::string name) {
+  do name += "_a";
+  while (file.find_vertex_property(name) || file.find_face_property(name));
+  return name;
+}
+
+/// Numbers of its own that are called as those to come get another name. Returns old and new.
+Renamed make_way(MeshFile& file, const MeasureArguments& arguments) {
+  Words taken = {"error", "red", "green", "blue", "alpha"};
+  if (arguments.options.deviations) taken.push_back("deviation");
+  if (arguments.growth) taken.push_back("growth");
+  Renamed renamed;
+  for (const std::string& name : taken) {
+    if (!file.find_vertex_property(name)) continue;
+    renamed.emplace_back(name, free_name(file, name));
+    rename_vertex_property(file, name, renamed.back().second);
+  }
+  for (Property& property : file.face_properties) {
+    if (!arguments.growth || property.name != "growth") continue;
+    renamed.emplace_back("growth of faces", free_name(file, property.name));
+    property.name = renamed.back().second;
+  }
+  return renamed;
+}
+
+void tell_renamed(const MeasureArguments& arguments, const Renamed& renamed, Session& session) {
+  if (renamed.empty()) return;
+  std::vector<std::string> words;
+  for (const auto& [old, name] : renamed) words.push_back(old + " is " + name);
+  session.console.say("  numbers that " + display_name(arguments.first) +
+                      " has already are called otherwise in " + output_name(arguments.per_vertex) +
+                      ": " + joined(words));
+}
+
 /// A with each vertex's distance to B, and the side, where that is wanted.
-MeshFile with_distances(const MeasureArguments& arguments, const MeshFile& first,
+MeshFile with_distances(const MeasureArguments& arguments, MeshFile file,
                         const OneSidedDistance& distance) {
   const VectorX& values = distance.at_vertices;
   const std::string about = "distance to " + display_name(arguments.second);
-  if (!distance.deviation) return with_coloured_values(first, "error", values, about);
-  MeshFile file = with_coloured_values(first, "deviation", distance.deviation->at_vertices,
-                                       about + ", less than 0 inside");
+  if (!distance.deviation)
+    return with_coloured_values(std::move(file), "error", values, about,
+                                {.range = arguments.range});
+  file = with_coloured_values(std::move(file), "deviation", distance.deviation->at_vertices,
+                              about + ", less than 0 inside",
+                              {.diverges = true, .range = arguments.range});
   file.set_vertex_property(
       {"error", ScalarType::Float64, std::vector<double>(values.begin(), values.end())});
   return file;
@@ -236,6 +339,10 @@ int run_measure(MeasureArguments& arguments) {
   const MeshFile second =
       placed(arguments, first, read_surface(arguments.second, arguments.repair, session), session);
   session.hold_signals();
+  tell_units(arguments, first, second, session);
+  if (arguments.within)
+    arguments.options.within = arguments.within->of(
+        Vector3(surface_box(first.mesh).upper - surface_box(first.mesh).lower).norm());
   const std::optional<Growth> growth = growth_asked_for(arguments, first, second);
   const SurfaceDistance distance = measure(arguments, first, second, session);
   if (!arguments.upright) tell_turned(arguments, first, second, distance, session);
@@ -249,7 +356,10 @@ int run_measure(MeasureArguments& arguments) {
                            .growth = growth,
                            .limits = judge(arguments, distance)};
   if (!arguments.per_vertex.empty()) {
-    MeshFile file = with_distances(arguments, first, distance.forth);
+    MeshFile file = first;
+    record.renamed = make_way(file, arguments);
+    tell_renamed(arguments, record.renamed, session);
+    file = with_distances(arguments, std::move(file), distance.forth);
     if (growth) file = with_growth(std::move(file), *growth, arguments.second);
     session.files.add(arguments.per_vertex, serialise_mesh(arguments.per_vertex, file));
     record.outputs.emplace_back("per_vertex", arguments.per_vertex);
@@ -283,6 +393,15 @@ void declare_options(Declaration& command, MeasureArguments& arguments) {
       .text("--per-vertex", arguments.per_vertex, "FILE",
             "A with each vertex's distance to B: property error, and colours")
       .written()
+      .parsed(
+          "--range", "MIN,MAX",
+          [&arguments](const std::string& text) {
+            arguments.range = two_ends(text);
+            return arguments.range.has_value();
+          },
+          wanted_ends,
+          "Scale of the colours of --per-vertex, from blue by white to red where it is as far both "
+          "ways, as -0.1,0.1; default: to the largest")
       .flag("--signed", options.deviations,
             "Also on which side of B, a closed surface, A is: distances less than 0 inside; in "
             "--per-vertex as property deviation, and the colours")
@@ -293,6 +412,9 @@ void declare_options(Declaration& command, MeasureArguments& arguments) {
             "B turned as A stands, by what their files say is up and in front: y and z in glTF; z "
             "and -y where nothing says")
       .json(arguments);
+  declare_length(command, "--within", arguments.within,
+                 "Also which share of each surface is no farther than this from the other; % of "
+                 "A's diagonal");
   declare_length(command, "--max-rms", arguments.max_rms,
                  "Exit with status 6 if the larger RMS is more; % of A's diagonal");
   declare_length(command, "--max-distance", arguments.max_distance,

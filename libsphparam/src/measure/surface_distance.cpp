@@ -23,8 +23,9 @@ namespace sphparam {
 
 namespace {
 
-constexpr std::int64_t chunk = 1024;        // that one thread measures at once
-constexpr std::int64_t block = 64 * chunk;  // between two calls of the progress
+constexpr std::int64_t chunk = 1024;         // that one thread measures at once
+constexpr std::int64_t block = 64 * chunk;   // between two calls of the progress
+constexpr std::int64_t most_kept = 1 << 22;  // samples for percentiles: 64 MB
 constexpr std::int64_t most_cuts =
     1 << 20;  // for the bound, as many as samples; up to 150 bytes each
 
@@ -39,7 +40,7 @@ struct Tally {
   double max = -1, min = std::numeric_limits<double>::infinity(), sum = 0, squares = 0;
   double most_inside = std::numeric_limits<double>::infinity(), most_outside = -most_inside;
   double signed_sum = 0;
-  std::int64_t count = 0;
+  std::int64_t count = 0, near = 0;  // `near`: within what is asked for
   Vector3 farthest = Vector3::Zero();
 
   /// `deviation`: the distance, less than 0 inside.
@@ -68,12 +69,46 @@ struct Tally {
     most_outside = std::max(most_outside, other.most_outside);
     signed_sum += other.signed_sum;
     count += other.count;
+    near += other.near;
   }
   void add_deviation(double deviation) {
     most_inside = std::min(most_inside, deviation);
     most_outside = std::max(most_outside, deviation);
   }
 };
+
+/// Every stride-th sample, for percentiles.
+struct Kept {
+  std::int64_t stride = 1;
+  std::vector<double> distances, deviations;
+
+  /// Takes up every stride-th of so many more; returns where the first of these is.
+  std::int64_t make_room(std::int64_t count) {
+    const std::int64_t first = std::ssize(distances);
+    distances.resize(static_cast<size_t>(first + (count + stride - 1) / stride));
+    deviations.resize(distances.size());
+    return first;
+  }
+  void put(std::int64_t first, std::int64_t i, double distance, double deviation) {
+    if (i % stride != 0) return;
+    const auto at = static_cast<size_t>(first + i / stride);
+    distances[at] = distance;
+    deviations[at] = deviation;
+  }
+};
+
+/// By nearest rank: the least that this share of the values is not above.
+double quantile(std::vector<double>& values, double share) {
+  const double rank = std::ceil(share * static_cast<double>(values.size()));
+  const auto at = values.begin() + std::max(0L, static_cast<std::ptrdiff_t>(rank) - 1);
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+/// Of numbers with this mean and this mean of their squares.
+double standard_deviation(double mean, double square) {
+  return std::sqrt(std::max(0.0, square - mean * mean));
+}
 
 /// Says how much of one direction is done.
 struct Meter {
@@ -101,6 +136,7 @@ struct Direction {
   const Target& to;
   const Enclosure* inside;  // none: sides are not asked for
   double noise;             // of samples; what is no farther is on the other surface
+  double within;            // what is no farther is counted; less than 0: nothing is
   int threads;
   Meter meter;
 
@@ -170,18 +206,25 @@ Tally measure_vertices(Direction& direction, VertexDistances& result, VectorX& d
         result.nearest[static_cast<size_t>(v)] = face;
         const double deviation = direction.deviation(result.distances[v], point);
         if (direction.inside) deviations[v] = deviation;
-        if (used[static_cast<size_t>(v)]) tally.add(distance, deviation, point);
+        if (used[static_cast<size_t>(v)]) {
+          tally.add(distance, deviation, point);
+          tally.near += distance <= direction.within;
+        }
       });
 }
 
 template <class Samples>
-Tally measure_samples(Direction& direction, const Samples& samples) {
+Tally measure_samples(Direction& direction, const Samples& samples, Kept& kept) {
   const double noise = direction.noise;
+  const std::int64_t first = kept.make_room(samples.count());
   return direction.measure(
       samples.count(), samples, noise,
-      [&](std::int64_t, double distance, Face, const Vector3& point, Tally& tally) {
+      [&](std::int64_t i, double distance, Face, const Vector3& point, Tally& tally) {
         const double apart = distance <= noise ? 0 : distance;
-        tally.add(apart, direction.deviation(apart, point), point);
+        const double deviation = direction.deviation(apart, point);
+        tally.add(apart, deviation, point);
+        tally.near += apart <= direction.within;
+        kept.put(first, i, apart, deviation);
       });
 }
 
@@ -197,6 +240,12 @@ Samples samples_of(const Direction& direction, const char* size,
 
 bool asks_vertices(const DistanceOptions& options) { return options.extremes || options.vertices; }
 
+std::int64_t kept_stride(const TriangleMesh& mesh, const DistanceOptions& options) {
+  const std::int64_t all = options.vertices * mesh.vertex_count() +
+                           options.samples * (int{options.faces} + int{options.edges});
+  return std::max<std::int64_t>(1, (all + most_kept - 1) / most_kept);
+}
+
 std::int64_t count_points(const TriangleMesh& mesh, const DistanceOptions& options) {
   return asks_vertices(options) * mesh.vertex_count() +
          options.samples * (int{options.faces} + int{options.edges});
@@ -207,20 +256,37 @@ struct MeasuredPoints {
   VertexDistances at_vertices;
   VectorX deviations;  // of vertices
   Tally samples, all;
+  Kept kept;  // of samples
 };
+
+/// Every stride-th of the vertices that triangles use.
+void keep_vertices(const Direction& direction, MeasuredPoints& points) {
+  const std::vector<char> used = used_vertices(direction.from);
+  const std::int64_t first = points.kept.make_room(std::count(used.begin(), used.end(), 1));
+  std::int64_t i = 0;
+  for (Eigen::Index v = 0; v < std::ssize(used); ++v) {
+    if (!used[static_cast<size_t>(v)]) continue;
+    const double distance = points.at_vertices.distances[v];
+    points.kept.put(first, i++, distance, direction.inside ? points.deviations[v] : distance);
+  }
+}
 
 MeasuredPoints measure_points(Direction& direction, const DistanceOptions& options) {
   MeasuredPoints points;
+  points.kept.stride = kept_stride(direction.from, options);
   if (asks_vertices(options))
     points.all = measure_vertices(direction, points.at_vertices, points.deviations);
-  if (options.vertices) points.samples.add(points.all);
+  if (options.vertices) {
+    points.samples.add(points.all);
+    keep_vertices(direction, points);
+  }
   if (options.edges) {
     const auto on_edges = samples_of<EdgeSamples>(direction, "length of edges", options);
-    points.samples.add(measure_samples(direction, on_edges));
+    points.samples.add(measure_samples(direction, on_edges, points.kept));
   }
   if (options.faces) {
     const auto on_faces = samples_of<FaceSamples>(direction, "area", options);
-    points.samples.add(measure_samples(direction, on_faces));
+    points.samples.add(measure_samples(direction, on_faces, points.kept));
   }
   points.all.add(points.samples);
   return points;
@@ -241,9 +307,13 @@ FarthestPoint farthest_of(const MeasuredPoints& points, const Direction& directi
 SignedDeviation deviation_of(MeasuredPoints& points, const Direction& direction,
                              const OneSidedDistance& measured) {
   points.all.add_deviation(direction.deviation(measured.max, measured.farthest));
+  const auto count = static_cast<double>(points.samples.count);
+  const double mean = points.samples.signed_sum / count;
   return {.min = points.all.most_inside,
           .max = points.all.most_outside,
-          .mean = points.samples.signed_sum / static_cast<double>(points.samples.count),
+          .mean = mean,
+          .sd = standard_deviation(mean, points.samples.squares / count),
+          .median = quantile(points.kept.deviations, 0.5),
           .at_vertices = std::move(points.deviations)};
 }
 
@@ -256,20 +326,27 @@ OneSidedDistance measure_one_side(Side side, const TriangleMesh& from, const Tar
                          to,
                          inside,
                          sample_rounding * largest_coordinate(from),
+                         options.within.value_or(-1),
                          options.threads,
                          {options.progress, stage, points_in_all}};
   MeasuredPoints points = measure_points(direction, options);
   const FarthestPoint farthest = farthest_of(points, direction, options);
   const bool is_noise = farthest.distance < direction.noise;
   const auto count = static_cast<double>(points.samples.count);
+  const double mean = points.samples.sum / count, square = points.samples.squares / count;
   OneSidedDistance result = {.max = is_noise ? points.all.max : farthest.distance,
                              .max_bound = farthest.at_most,
                              .min = points.all.min,
-                             .mean = points.samples.sum / count,
-                             .rms = std::sqrt(points.samples.squares / count),
+                             .mean = mean,
+                             .rms = std::sqrt(square),
+                             .sd = standard_deviation(mean, square),
+                             .median = quantile(points.kept.distances, 0.5),
+                             .p95 = quantile(points.kept.distances, 0.95),
+                             .p99 = quantile(points.kept.distances, 0.99),
                              .samples = points.samples.count,
                              .farthest = farthest.point,
                              .at_vertices = std::move(points.at_vertices.distances)};
+  if (options.within) result.within = static_cast<double>(points.samples.near) / count;
   if (inside) result.deviation = deviation_of(points, direction, result);
   return result;
 }
@@ -302,14 +379,17 @@ double common_scale(const TriangleMesh& first, const TriangleMesh& second) {
 
 void scale_lengths(SurfaceDistance& distance, double scale) {
   for (OneSidedDistance* side : {&distance.forth, &distance.back}) {
-    for (double* length : {&side->max, &side->max_bound, &side->min, &side->mean, &side->rms}) {
+    for (double* length : {&side->max, &side->max_bound, &side->min, &side->mean, &side->rms,
+                           &side->sd, &side->median, &side->p95, &side->p99}) {
       *length *= scale;
     }
     side->farthest *= scale;
     side->at_vertices *= scale;
     if (!side->deviation) continue;
     SignedDeviation& deviation = *side->deviation;
-    for (double* length : {&deviation.min, &deviation.max, &deviation.mean}) *length *= scale;
+    for (double* length :
+         {&deviation.min, &deviation.max, &deviation.mean, &deviation.sd, &deviation.median})
+      *length *= scale;
     deviation.at_vertices *= scale;
   }
   distance.diagonal_first *= scale;
@@ -339,6 +419,7 @@ double SurfaceDistance::max() const { return std::max(forth.max, back.max); }
 double SurfaceDistance::max_bound() const { return std::max(forth.max_bound, back.max_bound); }
 double SurfaceDistance::mean() const { return std::max(forth.mean, back.mean); }
 double SurfaceDistance::rms() const { return std::max(forth.rms, back.rms); }
+double SurfaceDistance::p95() const { return std::max(forth.p95, back.p95); }
 
 SurfaceDistance measure_distance(const TriangleMesh& first, const TriangleMesh& second,
                                  const DistanceOptions& options) {
@@ -347,11 +428,15 @@ SurfaceDistance measure_distance(const TriangleMesh& first, const TriangleMesh& 
   if (!(options.faces || options.edges || options.vertices) || options.samples < 1) {
     throw std::invalid_argument("measure_distance: no samples");
   }
+  if (options.within && !(*options.within >= 0))
+    throw std::invalid_argument("measure_distance: nothing is within less than 0");
   if (options.deviations) require_closed(second);
   const double scale = common_scale(first, second);
   if (scale == 1) return measure_in_range(first, second, options);
+  DistanceOptions scaled = options;
+  if (scaled.within) *scaled.within *= scale;
   SurfaceDistance result = measure_in_range({scale * first.positions, first.triangles},
-                                            {scale * second.positions, second.triangles}, options);
+                                            {scale * second.positions, second.triangles}, scaled);
   scale_lengths(result, 1 / scale);
   return result;
 }

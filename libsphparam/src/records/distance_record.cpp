@@ -3,6 +3,7 @@
 #include "sphparam/records/distance_record.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -26,32 +27,40 @@ Json mesh_json(const std::string& path, const MeshFile& file, double diagonal) {
 }
 
 Json side_json(const OneSidedDistance& side, double own_diagonal, double other_diagonal,
-               double reference) {
-  return {{"RMS", side.rms},
-          {"max", side.max},
-          {"mean", side.mean},
-          {"min", side.min},
-          {"n_samples", side.samples},
-          {"diag_mesh_0", own_diagonal},
-          {"diag_mesh_1", other_diagonal},
-          {"max_bound", side.max_bound},
-          {"farthest", vector_json(side.farthest)},
-          {"relative",
-           {{"RMS", side.rms / reference},
-            {"max", side.max / reference},
-            {"mean", side.mean / reference},
-            {"min", side.min / reference}}}};
+               double reference, const std::optional<double>& within) {
+  Json json = {{"RMS", side.rms},
+               {"max", side.max},
+               {"mean", side.mean},
+               {"min", side.min},
+               {"SD", side.sd},
+               {"median", side.median},
+               {"P95", side.p95},
+               {"P99", side.p99},
+               {"n_samples", side.samples},
+               {"diag_mesh_0", own_diagonal},
+               {"diag_mesh_1", other_diagonal},
+               {"max_bound", side.max_bound},
+               {"farthest", vector_json(side.farthest)},
+               {"relative",
+                {{"RMS", side.rms / reference},
+                 {"max", side.max / reference},
+                 {"mean", side.mean / reference},
+                 {"min", side.min / reference}}}};
+  if (side.within) json["within"] = {{"length", *within}, {"share", *side.within}};
+  return json;
 }
 
 /// The first as the second has it: with the side, where that was asked for.
-Json forth_json(const SurfaceDistance& distance) {
+Json forth_json(const SurfaceDistance& distance, const std::optional<double>& within) {
   const OneSidedDistance& forth = distance.forth;
   const double first = distance.diagonal_first;
-  Json json = side_json(forth, first, distance.diagonal_second, first);
+  Json json = side_json(forth, first, distance.diagonal_second, first, within);
   if (forth.deviation)
     json["signed"] = {{"max", forth.deviation->max},
                       {"mean", forth.deviation->mean},
-                      {"min", forth.deviation->min}};
+                      {"min", forth.deviation->min},
+                      {"SD", forth.deviation->sd},
+                      {"median", forth.deviation->median}};
   return json;
 }
 
@@ -88,15 +97,15 @@ Json limits_json(const std::vector<DistanceLimit>& limits) {
 std::string signed_line(const SignedDeviation& deviation) {
   return "signed, of 1 from 2, less than 0 inside: from " + short_number(deviation.min, 6) +
          " to " + short_number(deviation.max, 6) + ", mean " + short_number(deviation.mean, 6) +
+         ", SD " + short_number(deviation.sd, 6) + ", median " + short_number(deviation.median, 6) +
          "\n";
 }
 
 /// One line of the table: four lengths, each with its share of the diagonal.
-std::string row(const std::string& name, double max, double mean, double rms, double min,
-                double diagonal) {
+std::string row(const std::string& name, const std::array<double, 4>& lengths, double diagonal) {
   char text[32];
   std::string line = name;
-  for (const double length : {max, mean, rms, min}) {
+  for (const double length : lengths) {
     std::snprintf(text, sizeof text, "%13.6g", length);
     line += text;
     std::snprintf(text, sizeof text, " %8.3g%%", 100 * length / diagonal);
@@ -105,8 +114,30 @@ std::string row(const std::string& name, double max, double mean, double rms, do
   return line + "\n";
 }
 
-std::string row(const std::string& name, const OneSidedDistance& side, double diagonal) {
-  return row(name, side.max, side.mean, side.rms, side.min, diagonal);
+std::string distance_row(const std::string& name, const OneSidedDistance& side, double diagonal) {
+  return row(name, {side.max, side.mean, side.rms, side.min}, diagonal);
+}
+
+std::string percentile_row(const std::string& name, const OneSidedDistance& side, double diagonal) {
+  return row(name, {side.p99, side.p95, side.median, side.sd}, diagonal);
+}
+
+std::string percentile_rows(const SurfaceDistance& distance) {
+  const double diagonal = distance.diagonal_first;
+  return "\n                      99 %                   95 %                 median"
+         "                     SD\n" +
+         percentile_row("1 to 2", distance.forth, diagonal) +
+         percentile_row("2 to 1", distance.back, diagonal) +
+         "the larger 95 % (HD95): " + short_number(distance.p95(), 6) + "\n";
+}
+
+/// Empty where that was not asked for.
+std::string within_line(const DistanceRecord& record) {
+  if (!record.options.within) return "";
+  const SurfaceDistance& distance = record.distance;
+  return "within " + short_number(*record.options.within, 6) + ": " +
+         percent(distance.forth.within.value_or(0)) + " of 1, " +
+         percent(distance.back.within.value_or(0)) + " of 2\n";
 }
 
 }  // namespace
@@ -114,24 +145,27 @@ std::string row(const std::string& name, const OneSidedDistance& side, double di
 std::string to_json(const DistanceRecord& record) {
   const SurfaceDistance& distance = record.distance;
   const double first = distance.diagonal_first, second = distance.diagonal_second;
+  const std::optional<double>& within = record.options.within;
   Json json = {{"sphparam", version},
                {"command", "measure"},
                {"first", mesh_json(record.first, record.first_file, first)},
                {"second", mesh_json(record.second, record.second_file, second)},
                {"sampled", sampled_json(record.options)},
                {"upright", record.upright},
-               {"first_to_second", forth_json(distance)},
-               {"second_to_first", side_json(distance.back, second, first, first)},
+               {"first_to_second", forth_json(distance, within)},
+               {"second_to_first", side_json(distance.back, second, first, first, within)},
                {"two_sided",
                 {{"RMS", distance.rms()},
                  {"max", distance.max()},
                  {"max_bound", distance.max_bound()},
                  {"mean", distance.mean()},
+                 {"HD95", distance.p95()},
                  {"relative",
                   {{"RMS", distance.rms() / first},
                    {"max", distance.max() / first},
                    {"mean", distance.mean() / first}}}}},
                {"limits", limits_json(record.limits)},
+               {"renamed", pairs_json(record.renamed)},
                {"outputs", pairs_json(record.outputs)},
                {"seconds", record.seconds}};
   if (record.growth) json["growth"] = growth_json(*record.growth);
@@ -148,11 +182,13 @@ std::string to_text(const DistanceRecord& record) {
   text +=
       "                       max                   mean                    RMS"
       "                    min\n";
-  text += row("1 to 2", distance.forth, distance.diagonal_first);
-  text += row("2 to 1", distance.back, distance.diagonal_first);
-  text += row("larger", distance.max(), distance.mean(), distance.rms(),
-              std::max(distance.forth.min, distance.back.min), distance.diagonal_first);
-  text += "\n";
+  text += distance_row("1 to 2", distance.forth, distance.diagonal_first);
+  text += distance_row("2 to 1", distance.back, distance.diagonal_first);
+  text += row("larger",
+              {distance.max(), distance.mean(), distance.rms(),
+               std::max(distance.forth.min, distance.back.min)},
+              distance.diagonal_first);
+  text += percentile_rows(distance) + "\n" + within_line(record);
   if (distance.forth.deviation) text += signed_line(*distance.forth.deviation);
   if (record.growth) text += growth_line(*record.growth);
   text += "farthest: " + place_text(distance.forth.farthest, distance.diagonal_first, " ") +

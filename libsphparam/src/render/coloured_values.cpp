@@ -12,10 +12,17 @@ namespace sphparam {
 
 namespace {
 
-/// Blue at −reach, white at 0, red at reach.
-std::vector<Rgb> signed_colours(const VectorX& values, double reach) {
+HeatScale scale_of(const std::string& name, const VectorX& values, const ColourScale& wanted) {
+  if (wanted.range) return {name, wanted.range->first, wanted.range->second};
+  const double largest = values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0;
+  const bool diverges = wanted.diverges || (values.size() > 0 && values.minCoeff() < 0);
+  const double reach = largest > 0 ? largest : 1;
+  return {name, diverges ? -reach : 0, reach};
+}
+
+std::vector<Rgb> colours_of(const VectorX& values, const HeatScale& scale) {
   std::vector<Rgb> colours;
-  for (const double value : values) colours.push_back(diverging(value / reach));
+  for (const double value : values) colours.push_back(heat_colour(scale, value));
   return colours;
 }
 
@@ -42,19 +49,15 @@ std::string words_of(const std::optional<HeatScale>& scale) {
 }  // namespace
 
 MeshFile with_coloured_values(MeshFile file, const std::string& name, const VectorX& values,
-                              const std::string& about) {
-  const double largest = values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0;
-  const bool is_signed = values.size() > 0 && values.minCoeff() < 0;
-  const std::vector<Rgb> colours = is_signed ? signed_colours(values, largest)
-                                             : value_colours(values, 0, largest > 0 ? largest : 1);
+                              const std::string& about, const ColourScale& wanted) {
+  const HeatScale scale = scale_of(name, values, wanted);
   remove_textures(file);
-  set_colours(file, colours);
+  set_colours(file, colours_of(values, scale));
   file.set_vertex_property(
       {name, ScalarType::Float64, std::vector<double>(values.begin(), values.end())});
   if (!about.empty()) {
     file.comments.push_back(name + ": " + one_line(about) + ", colours from " +
-                            short_number(is_signed ? -largest : 0, 6) + " to " +
-                            short_number(largest, 6));
+                            short_number(scale.low, 6) + " to " + short_number(scale.high, 6));
   }
   return file;
 }

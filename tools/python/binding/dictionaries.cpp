@@ -25,11 +25,17 @@ py::dict as_dict(const OneSidedDistance& distance) {
   dict["samples"] = distance.samples;
   dict["farthest"] =
       py::make_tuple(distance.farthest.x(), distance.farthest.y(), distance.farthest.z());
+  dict["sd"] = distance.sd;
+  dict["median"] = distance.median;
+  dict["p95"] = distance.p95;
+  dict["p99"] = distance.p99;
+  dict["within"] = distance.within;
   dict["at_vertices"] = numbers_or_none(distance.at_vertices);
   dict["deviation"] = py::none();
   if (const auto& deviation = distance.deviation)
-    dict["deviation"] = py::make_tuple(deviation->min, deviation->max, deviation->mean,
-                                       numbers_or_none(deviation->at_vertices));
+    dict["deviation"] =
+        py::make_tuple(deviation->min, deviation->max, deviation->mean, deviation->sd,
+                       deviation->median, numbers_or_none(deviation->at_vertices));
   return dict;
 }
 
@@ -56,6 +62,7 @@ py::dict as_dict(const SurfaceDistance& distance) {
   dict["mean"] = distance.mean();
   dict["max"] = distance.max();
   dict["max_bound"] = distance.max_bound();
+  dict["p95"] = distance.p95();
   dict["diagonal"] = distance.diagonal_first;
   dict["forth"] = as_dict(distance.forth);
   dict["back"] = as_dict(distance.back);

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <numbers>
+#include <optional>
 #include <set>
 
 #include "arrays.h"
@@ -30,7 +31,8 @@ namespace {
 
 py::dict measure(const Source& first, const Source& second, std::int64_t samples,
                  std::uint64_t seed, const std::set<std::string>& over, bool extremes,
-                 bool deviations, int threads, const py::object& progress) try {
+                 bool deviations, const std::optional<double>& within, int threads,
+                 const py::object& progress) try {
   using Mesh = std::shared_ptr<const TriangleMesh>;
   // What closes holes is no surface.
   const auto surface = [](const MeshFile& file) {
@@ -46,6 +48,7 @@ py::dict measure(const Source& first, const Source& second, std::int64_t samples
                              .vertices = over.contains("vertices"),
                              .extremes = extremes,
                              .deviations = deviations,
+                             .within = within,
                              .threads = threads,
                              .progress = report});
   });

@@ -137,6 +137,8 @@ class Body(NamedTuple):
     """Its eigenvalues, ascending."""
     principal_axes: Tuple[Tuple[float, float, float], ...]
     """A row a principal axis, right-handed; the long one of the body first."""
+    extents: Tuple[float, float, float]
+    """How far the surface reaches along each of them: length, width and thickness."""
 
 
 class Inspection(NamedTuple):
@@ -211,6 +213,10 @@ class Deviation(NamedTuple):
     """The greatest: farthest outside."""
     mean: float
     """Of the samples."""
+    sd: float
+    """Their standard deviation."""
+    median: float
+    """Theirs."""
     at_vertices: Optional[Floats]
     """(V,) of every vertex; None without ``extremes``."""
 
@@ -232,6 +238,16 @@ class OneSided(NamedTuple):
     """How many points mean and rms are of."""
     farthest: Tuple[float, float, float]
     """The point at ``max``."""
+    sd: float
+    """Standard deviation of the samples."""
+    median: float
+    """Of the samples."""
+    p95: float
+    """No more than so far are 95 of 100 samples."""
+    p99: float
+    """No more than so far are 99 of 100."""
+    within: Optional[float]
+    """The share of the samples that is no farther than ``within``; None where that was not asked for."""
     at_vertices: Optional[Floats] = None
     """(V,) the distance of every vertex, also of those that no face uses; None without ``extremes``."""
     deviation: Optional[Deviation] = None
@@ -249,6 +265,8 @@ class Distance(NamedTuple):
     """Largest distance found; the Hausdorff distance is from it to ``max_bound``."""
     max_bound: float
     """No point is farther."""
+    p95: float
+    """The larger of both ways: HD95."""
     diagonal: float
     """Of the first surface's bounding box: what to hold distances against."""
     forth: OneSided

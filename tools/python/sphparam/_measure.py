@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Iterable, Tuple, Union
+from typing import TYPE_CHECKING, Any, Iterable, Optional, Tuple, Union
 
 from . import _arrays, _core
 from ._figures import Distance, one_sided
@@ -34,6 +34,7 @@ def measure(
     over: Union[str, Iterable[str]] = "faces",
     extremes: bool = True,
     signed: bool = False,
+    within: Optional[float] = None,
     threads: int = 0,
     progress: Progress = None,
 ) -> Distance:
@@ -52,6 +53,8 @@ def measure(
     signed
         Also on which side of the second surface the points of the first are, less than 0 inside:
         ``forth.deviation``. The second must be closed (else ValueError), the first need not.
+    within
+        Also which share of the samples is no farther than this, ``forth.within`` and ``back.within``.
 
     ``forth.at_vertices`` has the distance of every vertex of the first from the second, ``back.at_vertices`` the
     other way.
@@ -66,7 +69,7 @@ def measure(
     with told(progress) as report:
         found = _core.measure(
             meshes[0]._source, meshes[1]._source, samples, seed, words, _arrays.flag(extremes, "extremes"), _arrays.flag(signed, "signed"),
-            _arrays.threads(threads), report,  # fmt: skip
+            None if within is None else _arrays.real(within, "within"), _arrays.threads(threads), report,  # fmt: skip
         )
     found["forth"], found["back"] = one_sided(found["forth"]), one_sided(found["back"])
     return Distance(**found)

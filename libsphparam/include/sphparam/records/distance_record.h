@@ -31,10 +31,13 @@ struct DistanceRecord {
   std::vector<DistanceLimit> limits = {};
   std::vector<std::pair<std::string, std::string>> outputs = {};  // what it is, where it is
   double seconds = 0;
+  /// Numbers of the first that have another name beside those measured: "error" is "error_a".
+  std::vector<std::pair<std::string, std::string>> renamed = {};
 };
 
 /// As `sphparam measure --json` tells it. Keys of each direction as MeshLab has them: RMS, max,
-/// mean, min, n_samples, diag_mesh_0 (of the mesh sampled) and diag_mesh_1. `signed` of the first
+/// mean, min, n_samples, diag_mesh_0 (of the mesh sampled) and diag_mesh_1; median, P95, P99 and SD
+/// beside them; HD95, the larger P95, of both. `signed` of the first
 /// to the second where the side was asked for; `growth`, of areas and of the least and the greatest
 /// of a triangle, where that was.
 std::string to_json(const DistanceRecord& record);
