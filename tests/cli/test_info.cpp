@@ -56,6 +56,35 @@ TEST_CASE("info: cavities are told, not sent to a wrap, and not called inside ou
   CHECK_THAT(all.err, Contains("a cavity within component 1)") && !Contains("inside out"));
 }
 
+TEST_CASE("info: what parts share counts twice, which is told; length, width and thickness are") {
+  const Folder folder;
+  TriangleMesh limb = icosphere(3), small = icosphere(1);
+  limb.positions *= Eigen::Vector3d(2, 8, 4).asDiagonal();
+  small.positions *= 0.5;
+  const std::string mesh = folder / "m.obj";
+  const auto reported = [&](const TriangleMesh& written) {
+    write_bytes(mesh, obj_text(written));
+    return Json::parse(sphparam_program({"info", mesh, "--json", "-"}).out);
+  };
+  const Json alone = reported(limb);
+  for (const auto& [axis, extent] : {std::pair(0, 16.0), {1, 8.0}, {2, 4.0}})
+    CHECK(alone["body"]["extents"][axis].get<double>() == Approx(extent).epsilon(1e-12));
+  CHECK(alone["counted_twice"] == false);
+  CHECK_THAT(sphparam_program({"info", mesh}).out,
+             Contains("\n  extents       16, 8, 4 along these\n") && !Contains("counted twice"));
+  CHECK(reported(joined(limb, small, {9, 0, 0}))["counted_twice"] == false);
+  CHECK(reported(joined(limb, small, {2.3, 0, 0}))["counted_twice"] == true);
+  CHECK_THAT(sphparam_program({"info", mesh}).out,
+             Contains("\n  counted twice what parts share, in volume, centroid and inertia: "
+                      "triangles of it cross; `sphparam wrap` makes one body of them\n"));
+  CHECK_THAT(sphparam_program({"info", mesh, "--no-crossings"}).out, !Contains("counted twice"));
+  CHECK(reported(joined(limb, small, {0, 0, 0}))["counted_twice"] == true);
+  CHECK_THAT(sphparam_program({"info", mesh, "--no-crossings"}).out,
+             Contains("inertia: 1 part lies within the largest, with faces that look out as well"));
+  small.triangles.col(1).swap(small.triangles.col(2));
+  CHECK(reported(joined(limb, small, {0, 0, 0}))["counted_twice"] == false);  // a cavity
+}
+
 TEST_CASE("info: an open mesh has no volume") {
   TriangleMesh open = icosphere(1);
   open.triangles.conservativeResize(open.face_count() - 1, 3);

@@ -44,10 +44,18 @@ TEST_CASE("cavities: components within the largest that look inward, and no othe
   for (const TriangleMesh& mesh : {outward, far, large}) {
     const Cavities found = find_cavities(mesh);
     CHECK(found.lowest == std::vector<Vertex>{642, 684});
+    CHECK(found.lowest_of_solids == std::vector<Vertex>{810});
     CHECK(found.share == Approx(2 * volume(ball(1, 0.1)) / volume(ball(3, 1))));
   }
   CHECK(find_cavities(outward).volume == Approx(2 * volume(ball(1, 0.1))));
   CHECK(find_cavities(inward).lowest == std::vector<Vertex>{642, 684});
+}
+
+TEST_CASE("cavities: a ball within a cavity is enclosed once") {
+  const TriangleMesh shell = joined(ball(3, 1), ball(2, 0.5, true), {0, 0, 0});
+  CHECK(find_cavities(joined(shell, ball(1, 0.1), {0.2, 0, 0})).lowest_of_solids.empty());
+  CHECK(find_cavities(joined(shell, ball(1, 0.1), {0.75, 0, 0})).lowest_of_solids ==
+        std::vector<Vertex>{642 + 162});
 }
 
 TEST_CASE(

@@ -43,6 +43,7 @@ TEST_CASE("mass_properties: of a box, wherever it lies and however it is wound")
       Eigen::Matrix3d axes;
       axes << 0, 0, 1, 0, 1, 0, -1, 0, 0;  // the longest side first
       check_near(body.axes, axes, 1e-12);
+      CHECK((body.extents - Vector3(6, 4, 2)).cwiseAbs().maxCoeff() < 1e-12);
       mesh.triangles.col(1).swap(mesh.triangles.col(2));
     }
   }

@@ -111,6 +111,16 @@ class Windings {
   FaceBoxes boxes_;
 };
 
+/// Solids that lie in a cavity: nothing else encloses what they do.
+void leave_out_islands(const TriangleMesh& mesh, const std::vector<const Part*>& cavities,
+                       std::vector<Vertex>& lowest) {
+  for (const Part* cavity : cavities) {
+    if (lowest.empty()) return;
+    const Windings windings(mesh, *cavity);
+    std::erase_if(lowest, [&](Vertex v) { return windings.about(mesh.position(v)) != 0; });
+  }
+}
+
 }  // namespace
 
 Cavities find_cavities(const TriangleMesh& mesh) {
@@ -124,14 +134,22 @@ Cavities find_cavities(const TriangleMesh& mesh) {
   const Windings windings(unit, largest);
   const double outward = largest.volume > 0 ? 1 : -1;
   double volume = 0;
+  std::vector<const Part*> cavities;
   for (size_t i = 1; i < parts.size(); ++i) {
     const Part& part = parts[i];
-    if (!part.is_closed || part.volume * outward >= 0) continue;
+    if (!part.is_closed || part.volume == 0) continue;
     if (windings.about(unit.position(part.lowest)) * outward <= 0) continue;
+    if (part.volume * outward > 0) {
+      found.lowest_of_solids.push_back(part.lowest);
+      continue;
+    }
+    cavities.push_back(&part);
     found.lowest.push_back(part.lowest);
     volume += std::abs(part.volume);
   }
+  leave_out_islands(unit, cavities, found.lowest_of_solids);
   std::sort(found.lowest.begin(), found.lowest.end());
+  std::sort(found.lowest_of_solids.begin(), found.lowest_of_solids.end());
   found.volume = volume * scale * scale * scale;
   found.share = volume / std::abs(largest.volume);
   return found;

@@ -10,8 +10,10 @@ namespace sphparam {
 /// of cavities in what that encloses.
 struct Cavities {
   std::vector<Vertex> lowest;  // of the vertices of each, in ascending order
-  double volume = 0;           // of all
-  double share = 0;            // of what the largest component encloses, the cavities included
+  /// Of those that lie there, in no cavity, and look the same way: the largest encloses them, too.
+  std::vector<Vertex> lowest_of_solids;
+  double volume = 0;  // of all cavities
+  double share = 0;   // of what the largest component encloses, the cavities included
 };
 
 /// None where there is one component, or the largest is not closed. Where a component lies, its

@@ -46,6 +46,14 @@ void find_axes(MassProperties& body) {
   body.axes << first.transpose(), second.transpose(), first.cross(second).transpose();
 }
 
+Vector3 extents_along(const Eigen::Matrix3d& axes, const TriangleMesh& mesh,
+                      const Vector3& centre) {
+  Box box;
+  for (Eigen::Index i = 0; i < mesh.triangles.size(); ++i)
+    box.add(axes * (mesh.position(mesh.triangles.data()[i]) - centre));
+  return box.upper - box.lower;
+}
+
 }  // namespace
 
 std::optional<MassProperties> mass_properties(const TriangleMesh& mesh) {
@@ -64,6 +72,7 @@ std::optional<MassProperties> mass_properties(const TriangleMesh& mesh) {
   const double unit = (moments.volume < 0 ? -1 : 1) * size * size * size * size * size;
   body.inertia = unit * (second.trace() * Eigen::Matrix3d::Identity() - second);
   find_axes(body);
+  body.extents = extents_along(body.axes, mesh, body.centroid);
   return body;
 }
 

@@ -47,7 +47,8 @@ Json body_json(const std::optional<MassProperties>& body) {
   return {{"centroid", vector_json(body->centroid)},
           {"inertia", inertia},
           {"principal_moments", vector_json(body->moments)},
-          {"principal_axes", axes}};
+          {"principal_axes", axes},
+          {"extents", vector_json(body->extents)}};
 }
 
 std::vector<std::pair<std::string, std::string>> body_lines(
@@ -56,7 +57,8 @@ std::vector<std::pair<std::string, std::string>> body_lines(
   return {{"centroid", "(" + place_text(body->centroid, length) + ")"},
           {"inertia", list_of(body->moments) + " about the centroid, at density 1, along " +
                           direction(body->axes.row(0)) + ", " + direction(body->axes.row(1)) +
-                          ", " + direction(body->axes.row(2))}};
+                          ", " + direction(body->axes.row(2))},
+          {"extents", list_of(body->extents) + " along these"}};
 }
 
 }  // namespace sphparam

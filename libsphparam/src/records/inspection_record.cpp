@@ -119,6 +119,25 @@ std::string crossings_text(const SelfCrossings& crossings, double length) {
          " at (" + place_text(crossings.place, length) + ")";
 }
 
+/// Why the volume of several parts counts what they share twice; empty: it does not, or nobody
+/// looked.
+std::string shared_by_parts(const InspectionRecord& record) {
+  if (record.source.inspection.components < 2) return "";
+  if (record.crossings && record.crossings->pairs > 0) return "triangles of it cross";
+  const auto within =
+      static_cast<long>(find_cavities(record.source.file.mesh).lowest_of_solids.size());
+  if (within == 0) return "";
+  return counted(within, "part lies", "parts lie") +
+         " within the largest, with faces that look out as well";
+}
+
+std::string shared_line(const InspectionRecord& record) {
+  const std::string why = shared_by_parts(record);
+  if (why.empty()) return "";
+  return line("counted twice", "what parts share, in volume, centroid and inertia: " + why +
+                                   "; `sphparam wrap` makes one body of them");
+}
+
 std::string crossings_line(const InspectionRecord& record) {
   if (!record.crossings) return line("crossings", "not looked for");
   const MeshInspection& mesh = record.source.inspection;
@@ -196,21 +215,22 @@ std::string to_json(const InspectionRecord& record) {
   const std::optional<ClosedHoles> closed = closed_holes(record.source.file);
   Json inspection = inspection_json(record.source.inspection);
   if (closed) inspection["area"] = closed->area;
+  const auto body = enclosed_body(record.source.file.mesh, record.source.inspection);
   if (record.source.inspection.is_sphere()) inspection["mappable"] = is_mappable(record.source);
-  return text_of(
-      {{"sphparam", version},
-       {"command", "info"},
-       {"input", input_json(record.source)},
-       {"inspection", inspection},
-       {"crossings", record.crossings ? crossings_json(*record.crossings) : Json()},
-       {"fillers", closed_json(closed)},
-       {"cavities", cavities_json(record.source)},
-       {"repair", trial_json(record.source, record.repair)},
-       {"welded", record.source.welded || is_soup(record.source.file)},
-       {"provenance", pairs_json(provenance_in(record.source.file))},
-       {"body", body_json(enclosed_body(record.source.file.mesh, record.source.inspection))},
-       {"notes", record.source.notes},
-       {"seconds", record.seconds}});
+  return text_of({{"sphparam", version},
+                  {"command", "info"},
+                  {"input", input_json(record.source)},
+                  {"inspection", inspection},
+                  {"crossings", record.crossings ? crossings_json(*record.crossings) : Json()},
+                  {"fillers", closed_json(closed)},
+                  {"cavities", cavities_json(record.source)},
+                  {"repair", trial_json(record.source, record.repair)},
+                  {"welded", record.source.welded || is_soup(record.source.file)},
+                  {"provenance", pairs_json(provenance_in(record.source.file))},
+                  {"body", body_json(body)},
+                  {"counted_twice", body && !shared_by_parts(record).empty()},
+                  {"notes", record.source.notes},
+                  {"seconds", record.seconds}});
 }
 
 std::string to_text(const InspectionRecord& record) {
@@ -219,9 +239,9 @@ std::string to_text(const InspectionRecord& record) {
   std::string text =
       display_name(source.path) + "\n" + figures(source, closed) + crossings_line(record);
   const Vector3 sides = source.inspection.upper - source.inspection.lower;
-  for (const auto& [label, value] :
-       body_lines(enclosed_body(source.file.mesh, source.inspection), sides.maxCoeff()))
-    text += line(label, value);
+  const auto body = enclosed_body(source.file.mesh, source.inspection);
+  for (const auto& [label, value] : body_lines(body, sides.maxCoeff())) text += line(label, value);
+  if (body) text += shared_line(record);
   for (const auto& [key, value] : provenance_in(source.file)) text += line("map " + key, value);
   for (const std::string& note : source.notes) text += line("note", note);
   if (!source.inspection.defects.empty()) {

@@ -82,11 +82,11 @@ py::tuple rows_of(const Eigen::Matrix3d& table) {
   return py::make_tuple(triple(table.row(0)), triple(table.row(1)), triple(table.row(2)));
 }
 
-/// Centroid, inertia, principal moments and axes.
+/// Centroid, inertia, principal moments and axes, extents.
 py::object as_tuple(const std::optional<MassProperties>& body) {
   if (!body) return py::none();
   return py::make_tuple(triple(body->centroid), rows_of(body->inertia), triple(body->moments),
-                        rows_of(body->axes));
+                        rows_of(body->axes), triple(body->extents));
 }
 
 py::dict inspect(const Source& source) {

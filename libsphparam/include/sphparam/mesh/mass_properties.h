@@ -18,6 +18,8 @@ struct MassProperties {
   /// A row a principal axis: unit, right-handed; of the first two the coordinate that is largest is
   /// positive. Where two moments are the same, any two axes of their plane.
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  /// How far the surface reaches along each of them: length, width and thickness.
+  Vector3 extents = Vector3::Zero();
 };
 
 /// Sums over tetrahedra, signed, of the faces and a point inside the bounding box: exact up to
