@@ -267,6 +267,19 @@ TEST_CASE("connected_parts: a cavity is one, and not inside out") {
   }
 }
 
+TEST_CASE("connected_parts: edges are halved in each part, by its own box") {
+  const TriangleMesh one = icosphere(1), two = joined(one, one, {5, 0, 0});
+  RepairOptions repairs;
+  repairs.edge_length = 0.3;
+  std::vector<MeshPart> parts = connected_parts(source_of(two, "two.ply"), repairs);
+  REQUIRE(parts.size() == 2);
+  for (MeshPart& part : parts) {
+    CHECK(part.source.repairs.empty());
+    CHECK(part.source.file.mesh.face_count() == one.face_count());
+    CHECK(repaired_part(std::move(part), repairs).repairs.at(0).kind == RepairKind::EdgeHalved);
+  }
+}
+
 TEST_CASE("shape_change: what caps add to volume and box is told, against what was there") {
   // Two of its faces the wrong way round, so that the volume of the file is none.
   TriangleMesh ring = bumped_torus(12, 30, 0.3, 0, 1);

@@ -605,6 +605,21 @@ void turn_over(TriangleMesh& mesh, Face f) {
 
 }  // namespace
 
+TEST_CASE("repaired_file: normals of vertices that halve edges are unit ones") {
+  const MeshFile file = with_normals(octahedron(), 1);
+  RepairOptions options = RepairOptions::none();
+  options.edge_length = 1;
+  const RepairedMesh repaired = repair_mesh(file.mesh, options);
+  const MeshFile result = repaired_file(file, repaired);
+  REQUIRE(repaired.created.size() >= 12);
+  for (Vertex v = 0; v < result.mesh.vertex_count(); ++v) {
+    Vector3 normal;
+    for (const auto& [name, axis] : {std::pair("nx", 0), std::pair("ny", 1), std::pair("nz", 2)})
+      normal[axis] = result.find_vertex_property(name)->values[static_cast<size_t>(v)];
+    CHECK(normal.isApprox(result.mesh.position(v).normalized(), 1e-15));
+  }
+}
+
 TEST_CASE("repaired_file: normals turn over with their faces") {
   TriangleMesh inward = icosphere(2);
   inward.triangles.col(1).swap(inward.triangles.col(2));

@@ -123,3 +123,13 @@ TEST_CASE("long edges: what cannot be mapped is left, and what cannot be numbere
   CHECK_THROWS_AS(repair_mesh(bar(), edges_of(1e-5)), std::range_error);
   CHECK_THROWS_AS(repair_mesh(bar(), edges_of(-1)), std::invalid_argument);
 }
+
+TEST_CASE("long edges: where a face names no vertex, nothing is measured") {
+  TriangleMesh mesh = bar();
+  mesh.triangles(3, 1) = 1 << 20;
+  RepairOptions share = RepairOptions::none();
+  share.edge_share = 0.01;
+  const RepairedMesh same = repair_mesh(mesh, share);
+  CHECK(same.actions.empty());
+  CHECK(same.mesh.triangles == mesh.triangles);
+}

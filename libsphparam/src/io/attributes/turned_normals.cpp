@@ -66,6 +66,14 @@ struct VectorProperty {
   Vector3 at(std::size_t i) const {
     return {parts[0]->values[i], parts[1]->values[i], parts[2]->values[i]};
   }
+  bool is_real() const {
+    return std::ranges::all_of(parts, [](const Property* part) { return is_floating(part->type); });
+  }
+  void make_unit(std::size_t i) const {
+    const double length = at(i).stableNorm();
+    if (!(length > 0)) return;
+    for (Property* part : parts) part->values[i] /= length;
+  }
   void turn(std::size_t i) const {
     for (Property* part : parts) part->values[i] = 0.0 - part->values[i];  // no −0
   }
@@ -170,6 +178,13 @@ void turn_normals(MeshFile& file, const RepairedMesh& repaired) {
   if (!file.corner_tangents) return;
   for (Eigen::Index i = 0; i < file.corner_tangents->rows(); ++i)
     if (frames[static_cast<std::size_t>(i)]) (*file.corner_tangents)(i, 3) *= -1;
+}
+
+void make_created_normals_unit(MeshFile& file, const RepairedMesh& repaired) {
+  const VectorProperty normals = normals_among(file.vertex_properties);
+  if (!normals.is_there() || !normals.is_real()) return;
+  for (const CreatedVertex& created : repaired.created)
+    normals.make_unit(static_cast<std::size_t>(created.vertex));
 }
 
 }  // namespace sphparam

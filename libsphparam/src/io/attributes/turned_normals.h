@@ -12,4 +12,8 @@ namespace sphparam {
 /// Requires: `file` is gathered by `repaired`. Cost: O(#V + #F).
 void turn_normals(MeshFile& file, const RepairedMesh& repaired);
 
+/// Normals of vertices that a repair created, which are means, are of length 1 again: those that
+/// are real numbers, and not 0. Requires: as `turn_normals`. Cost: O(#V).
+void make_created_normals_unit(MeshFile& file, const RepairedMesh& repaired);
+
 }  // namespace sphparam

@@ -141,6 +141,7 @@ PartTrial try_alone(TriangleMesh mesh) {
 RepairOptions before_components(RepairOptions repairs) {
   repairs.components = repairs.holes = repairs.handles = false;
   repairs.flat_faces = repairs.unused = false;
+  repairs.edge_share = repairs.edge_length = 0;
   return repairs;
 }
 

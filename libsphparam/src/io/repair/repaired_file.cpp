@@ -209,6 +209,7 @@ MeshFile repaired_file(const MeshFile& file, const RepairedMesh& repaired) {
   }
   for (Property& property : result.vertex_properties)
     gather_vertices(property, is_of_colour(property, result.vertex_properties), repaired);
+  make_created_normals_unit(result, repaired);
   for (Property& property : result.face_properties) gather_faces(property, repaired);
   gather_corners(result.corner_normals, repaired);
   make_unit(result.corner_normals, repaired);

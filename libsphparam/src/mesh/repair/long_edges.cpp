@@ -92,10 +92,11 @@ void require_few(const RepairState& state, double longest) {
 }  // namespace
 
 void halve_long_edges(RepairState& state, const RepairOptions& options) {
+  const auto topology = Topology::try_build(state.triangles(), state.vertex_count());
+  if (!topology) return;
   const double longest = options.edge_length > 0 ? options.edge_length / state.scale
                                                  : options.edge_share * state.diagonal();
-  const auto topology = Topology::try_build(state.triangles(), state.vertex_count());
-  if (!topology || !(longest > 0)) return;
+  if (!(longest > 0)) return;
   require_few(state, longest);
   std::vector<Halfedge> twin;
   for (Halfedge h = 0; h < 3 * state.face_count(); ++h) twin.push_back(topology->twin(h));
