@@ -121,6 +121,8 @@ TEST_CASE("group: everything is written, every map proved, and the length is the
   CHECK(report["command"] == "group");
   CHECK(report["modes"][0]["share"] > 0.98);
   REQUIRE(report["shapes"].size() == 3);
+  CHECK(report["shapes"][0]["start"] == "template");
+  CHECK(report["shapes"][1]["start"] == "turn");  // one bump is no three ends
   for (const Json& shape : report["shapes"]) {
     CHECK(shape["certificate"]["one_to_one"] == true);
     CHECK(shape["resampled_certificate"]["one_to_one"] == true);
@@ -189,6 +191,7 @@ TEST_CASE(
       CHECK(double(shape["scale"]) * size ==
             Approx(scale ? double(report["mean_size"]) : size).epsilon(1e-12));
       CHECK(std::stod(cells_of(rows[i + 1])[3]) == size);
+      CHECK(std::stod(cells_of(rows[i + 1]).rbegin()[2]) == shape["confidence"]);
       sum += size;
     }
     CHECK(double(report["mean_size"]) == Approx(sum / 3).epsilon(1e-12));
@@ -225,7 +228,7 @@ TEST_CASE(
   CHECK(report["shapes"][0]["components"].is_null());
   CHECK(report["template_mended"].is_null());
   const auto rows = lines_of(bytes_of(eggs.in_out("shapes.tsv")));
-  CHECK_THAT(rows[0], Catch::EndsWith("\trepairs\tfile"));
+  CHECK_THAT(rows[0], Catch::EndsWith("\tconfidence\trepairs\tfile"));
   CHECK_THAT(rows[1], Catch::EndsWith("\t\t" + eggs.paths[0]));
   CHECK_THAT(rows[2], Contains("hole-filled 1") && Contains("; "));
   CHECK_THAT(bytes_of(eggs.in_out("index.html")), Contains("Mended before they were mapped") &&
@@ -403,6 +406,20 @@ TEST_CASE("group: shapes of one name are told apart by their files") {
   CHECK(cells_of(rows[1]).back() == eggs.paths[0]);
   CHECK(cells_of(rows[2]).front() == "egg0_2");
   CHECK(cells_of(rows[2]).back() == second);
+}
+
+TEST_CASE("group: a shape in another unit is told, but not where all are brought to one size") {
+  const Eggs eggs;
+  TriangleMesh metres = read_mesh(fs::path(eggs.paths[2])).mesh;
+  metres.positions *= 1e-3;
+  write_bytes(eggs.paths[2], obj_text(metres));
+  const std::string told = "egg2: its size is ";
+  const Ended ended = eggs.group({"--hold", "--size", "0"});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.err, Contains(told) && Contains("one size with --scale") &&
+                            !Contains("egg0: its size") && !Contains("egg1: its size"));
+  CHECK_THAT(eggs.group({"--hold", "--size", "0", "--scale"}).err, !Contains(told));
 }
 
 TEST_CASE("group: the distance that is told is that of the table, by root mean square") {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
@@ -7,6 +8,7 @@
 #include "sphparam/correspondence/matched_files.h"
 #include "sphparam/io/fillers.h"
 #include "sphparam/parameterize.h"
+#include "support/coil.h"
 #include "support/test_meshes.h"
 
 namespace sphparam::tests {
@@ -251,6 +253,24 @@ TEST_CASE(
   CHECK(dirichlet(match_surfaces(ball, ball, {.search = true}).map) == Approx(4).epsilon(1e-9));
   CHECK_THROWS_AS(match_surfaces(ball, ball, {.landmarks = {{0, 0}}, .search = true}),
                   std::invalid_argument);
+}
+
+TEST_CASE("match: a turn for want of ends that is no isometry is told, and little trusted") {
+  const MappedMesh one = mapped(coil(1)), two = mapped(coil(2));
+  const Match match = match_surfaces(one, two, {.search = true});
+  CHECK(match.suggestions.empty());
+  REQUIRE(match.made_by == "turn");
+  CHECK(match.confidence <= Approx(0.05 / (match.energy / 2 - 1)));
+  const auto told = [](const Match& found) {
+    return std::ranges::count_if(found.warnings, [](const std::string& warning) {
+      return warning.starts_with(
+                 "nothing but a turn of the maps was found (neither has three "
+                 "ends), and it distorts (energy ") &&
+             warning.ends_with("`sphparam match --landmarks`");
+    });
+  };
+  CHECK(told(match) == 1);
+  CHECK(told(match_surfaces(one, one, {.search = true})) == 0);
 }
 
 TEST_CASE("match: the same bits for one thread and two") {

@@ -10,6 +10,7 @@
 #include "sphparam/remesh/resample.h"
 #include "sphparam/sphere/certificate.h"
 #include "support/capped.h"
+#include "support/coil.h"
 #include "support/mapped.h"
 #include "support/test_meshes.h"
 
@@ -169,6 +170,22 @@ TEST_CASE("group: a shape that fits in several positions is brought without conf
     CHECK_THAT(group.members[3].warnings[0],
                Catch::Contains("in two positions") && Catch::EndsWith("by match, bring it right"));
   }
+}
+
+TEST_CASE("group: a coil that a turn alone brings is told as such, and little trusted") {
+  std::vector<MappedMesh> shapes;
+  for (const int turns : {1, 2}) {
+    const TriangleMesh mesh = coil(turns);
+    shapes.push_back(mapped(mesh, parameterize(mesh).map));
+  }
+  const Group group = make_group(shapes, shapes[0], {.rounds = 0, .grid = small_grid});
+  CHECK(group.members[0].start == "template");
+  CHECK(group.members[1].start == "turn");
+  CHECK(group.members[1].confidence < 0.1);
+  REQUIRE(group.members[1].warnings.size() >= 2);  // the first: after another turn about as well
+  CHECK_THAT(group.members[1].warnings[1],
+             Catch::StartsWith("nothing but a turn of the maps was found") &&
+                 Catch::EndsWith("--start rotation may find more"));
 }
 
 TEST_CASE("group: a start or an energy that there is not is refused by its name") {

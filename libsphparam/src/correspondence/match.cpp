@@ -30,6 +30,8 @@ constexpr int all_starts = 3;                // of coarse levels, to take the be
 constexpr double collapsed = 0.01;           // of its share of the area: a triangle that is lost
 constexpr double telling_area = 1e-3;        // share of the surface that is lost: worth a word
 constexpr double telling_confidence = 0.15;  // less is worth a word
+constexpr double telling_excess = 0.05;      // of a turn's energy, of isometry's, where lengths are
+                                             // off by some 15 %: more is worth a word
 constexpr double telling_parting = 0.02;     // less correlation of places by features: so, too
 constexpr double opposed_agreement = -0.2;   // correlation of a feature: worth a word,
 constexpr double telling_opposition = 0.1;   // as is so much more with the opposite sign
@@ -233,7 +235,21 @@ class Matcher {
     made_by_ = "turn";
     TurnedMatch found = match_by_turn(from_, to_, target_, composed_, options_.alike);
     tell_confidence(found.confidence, why + ", and their maps fit after another turn");
+    tell_turn(energy_of(found.map, composed_.energy.energy), why);
     return std::move(found.map);
+  }
+
+  /// A turn is compared with turns alone: that another map fits far better is not looked for, and
+  /// is the likelier the less this one is an isometry.
+  void tell_turn(double energy, const std::string& why) {
+    const double isometric = differentiate(composed_.energy.energy, 1, 1).f;
+    const double excess = energy / isometric - 1;
+    if (!(excess > telling_excess)) return;
+    confidence_ = std::min(confidence_, telling_excess / excess);
+    warn("nothing but a turn of the maps was found (" + why + "), and it distorts (energy " +
+         short_number(energy) + ", of an isometry " + short_number(isometric) +
+         "): what is coiled or bent otherwise needs landmarks, three places or more that both "
+         "have: `sphparam match --landmarks`");
   }
 
   void tell_confidence(double confidence, const std::string& other) {

@@ -91,7 +91,11 @@ Brought from_match(Match match, std::string start) {
 
 Brought by_ends(const GroupTarget& target, const MappedMesh& shape, MatchOptions options) {
   options.search = true;
-  Brought found = from_match(match_surfaces(shape, target.mapped, options), "ends");
+  Match match = match_surfaces(shape, target.mapped, options);
+  std::string start = match.made_by == "turn" ? "turn" : "ends";
+  for (std::string& warning : match.warnings)
+    if (warning.starts_with("nothing but a turn")) warning += "; --start rotation may find more";
+  Brought found = from_match(std::move(match), std::move(start));
   std::swap(found.doubts, found.warnings);
   return found;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string_view>
@@ -28,6 +29,7 @@ namespace {
 constexpr double far_energy = 1.5;       // of the median beyond isometry: a shape to look at,
 constexpr double telling_energy = 0.25;  // if it is this much beyond the median, too
 constexpr double isometry = 2;           // of symmetric Dirichlet as it is minimised
+constexpr double far_size = 10;          // times the median, or one over that: another unit
 constexpr size_t telling_count = 5;      // shapes: of fewer no median says anything
 
 // What columns of a group's own files are called, or numbers of that name would make them.
@@ -175,6 +177,23 @@ std::vector<size_t> outliers(const Group& group) {
   return result;
 }
 
+/// Shapes that no group has beside each other, but in two units; none where --scale makes them one.
+std::vector<std::string> size_lines(const GroupRecord& record) {
+  std::vector<double> sizes;
+  for (const GroupMember& member : record.group.members) sizes.push_back(member.size);
+  std::ranges::nth_element(sizes, sizes.begin() + std::ssize(sizes) / 2);
+  const double median = sizes[sizes.size() / 2];
+  std::vector<std::string> lines;
+  for (size_t i = 0; i < record.names.size() && !record.options.scale; ++i)
+    if (const double size = record.group.members[i].size;
+        size > far_size * median || median > far_size * size)
+      lines.push_back(record.names[i] + ": its size is " + short_number(size) +
+                      ", the median of the group " + short_number(median) +
+                      ": if its file is in another unit the mean and the modes say nothing: bring "
+                      "all into one, or to one size with --scale");
+  return lines;
+}
+
 }  // namespace
 
 MendedShape what_was_mended(const MeshSource& source) {
@@ -265,7 +284,7 @@ std::string to_json(const GroupRecord& record) {
 std::string shapes_table(const GroupRecord& record) {
   std::vector<std::string> header{"shape", "start", "energy", "size", "distance_from_mean"};
   for (std::string& name : mode_names(record.group, "mode")) header.push_back(std::move(name));
-  header.insert(header.end(), {"repairs", "file"});
+  header.insert(header.end(), {"confidence", "repairs", "file"});
   std::string text = row(header);
   for (size_t i = 0; i < record.names.size(); ++i) {
     const GroupMember& member = record.group.members[i];
@@ -274,6 +293,7 @@ std::string shapes_table(const GroupRecord& record) {
         shortest(member.size), shortest(distance_from_mean(record.group, i))};
     for (Eigen::Index k = 0; k < record.group.modes.scores.cols(); ++k)
       cells.push_back(shortest(record.group.modes.scores(static_cast<Eigen::Index>(i), k)));
+    cells.push_back(shortest(member.confidence));
     cells.push_back(repairs_text(mended_of(record, i)));
     cells.push_back(record.files[i]);
     text += row(cells);
@@ -387,6 +407,7 @@ std::vector<std::string> group_warnings(const GroupRecord& record) {
                        short_number(record.group.members[i].energy) +
                        "): look at its correspondence; where it is wrong, landmarks by match bring "
                        "it right");
+  std::ranges::move(size_lines(record), std::back_inserter(warnings));
   for (const GroupScalar& scalar : record.group.scalars)
     if (std::string line = missing_line(record, scalar); !line.empty())
       warnings.push_back(std::move(line));

@@ -171,7 +171,7 @@ class GroupPage {
   void add_tables() {
     page_.heading("Figures");
     PageTable shapes{"Shapes",
-                     {"shape", "begun with", "energy", "size", "from the mean",
+                     {"shape", "begun with", "confidence", "energy", "size", "from the mean",
                       "off by resampling, RMS", "most"},
                      {},
                      {}};
@@ -180,10 +180,11 @@ class GroupPage {
       shapes.header.push_back("mode " + std::to_string(k + 1));
     for (size_t i = 0; i < record_.names.size(); ++i) {
       const GroupMember& member = group_.members[i];
-      shapes.rows.push_back(
-          {record_.names[i], member.start, member.energy > 0 ? short_number(member.energy, 4) : "–",
-           short_number(member.size), short_number(distance_from_mean(group_, i)),
-           short_number(member.resampling_rms), short_number(member.resampling_max)});
+      shapes.rows.push_back({record_.names[i], member.start, short_number(member.confidence),
+                             member.energy > 0 ? short_number(member.energy, 4) : "–",
+                             short_number(member.size), short_number(distance_from_mean(group_, i)),
+                             short_number(member.resampling_rms),
+                             short_number(member.resampling_max)});
       for (Eigen::Index k = 0; k < modes; ++k)
         shapes.rows.back().push_back(
             short_number(group_.modes.scores(static_cast<Eigen::Index>(i), k)));

@@ -46,8 +46,10 @@ struct GroupMember {
   Points aligned;           // the resampled one's vertices, on the mean
   double size = 0;          // of the resampled one, whoever else is in the group: `surface_size`
   ProcrustesMotion motion;  // that brought them there
-  std::string start;        // what its way began with: "rotation", "ellipsoid", "ends", "its map"
-  double energy = 0;        // of the last minimisation, a unit of area (`Match::energy`); 0: none
+  /// What its way began with: "template", "rotation", "ellipsoid", "ends", "turn" where there were
+  /// none, "its map".
+  std::string start;
+  double energy = 0;  // of the last minimisation, a unit of area (`Match::energy`); 0: none
   /// In where its way began: of ends `Match::confidence`; of rotations 1 − (1 − c) / (1 − d), with
   /// c and d the correlations of the best position and the next; of ellipsoids as
   /// `FirstOrderAlignment`. 0: another is as good; 1: there is none, or a symmetry makes it as
