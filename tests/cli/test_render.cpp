@@ -42,7 +42,8 @@ TEST_CASE("render: what reading lost is told, also where that number is asked fo
       "property list uchar int vertex_indices\nend_header\n"
       "0 0 0 1\n1 0 0 nan\n0 1 0 3\n0 0 1 4\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
   const std::string loss =
-      ": not carried: property 'quality' of element 'vertex': it has 1 value that is not finite\n";
+      ": not carried: property 'quality' of element 'vertex': 1 of its 4 numbers (25 %) are not "
+      "finite, and a mesh keeps none of these\n";
   const Folder folder;
   const std::string picture = folder / "a.png";
   const Ended drawn = sphparam_program({"render", "-", "-o", picture, "--size", "64"}, mesh);

@@ -346,9 +346,10 @@ TEST_CASE("ply_reader: a property with values that are not finite is left out an
   CHECK(file.vertex_properties[0].values == std::vector<double>{1, 2, 3, 4});
   CHECK(file.face_properties.empty());
   REQUIRE(file.notes.size() == 2);
-  CHECK(
-      contains(file.notes[0], "'depth' of element 'vertex': it has 3 values that are not finite"));
-  CHECK(contains(file.notes[1], "'quality' of element 'face': it has 1 value that is not finite"));
+  CHECK(contains(file.notes[0],
+                 "'depth' of element 'vertex': 3 of its 4 numbers (75 %) are not finite"));
+  CHECK(contains(file.notes[1],
+                 "'quality' of element 'face': 1 of its 4 numbers (25 %) are not finite"));
   CHECK(contains(complaint(replaced(text, "1 0 0 -inf", "1 nan 0 -inf")), "expected a number"));
   CHECK(contains(complaint(replaced(text, "float depth", "float sx")), "'sx'"));
   const MeshFile normals =

@@ -6,7 +6,7 @@
 #include "io/files/byte_reader.h"
 #include "io/formats/indexed_triangles.h"
 #include "io/formats/mz3_attributes.h"
-#include "number_text.h"
+#include "io/formats/non_finite_numbers.h"
 #include "sphparam/io/losses.h"
 
 // MAGIC, attributes, numbers of faces and vertices, bytes to skip; then the faces, the vertices,
@@ -114,17 +114,13 @@ class Mz3Reader {
     Property layer{is_occlusion ? "ao" : "scalar" + number,
                    header.has(Has::doubles) ? ScalarType::Float64 : ScalarType::Float32,
                    {}};
-    long missing = 0;
     for (std::uint32_t v = 0; v < header.vertices; ++v) {
       layer.values.push_back(layer.type == ScalarType::Float64
                                  ? reader_.number<double>("the layers")
                                  : static_cast<double>(reader_.number<float>("the layers")));
-      missing += !std::isfinite(layer.values.back());
     }
-    if (missing > 0)
-      add_loss(file_.notes, "layer " + std::to_string(i + 1) + ": it has " +
-                                counted(missing, "value that is", "values that are") +
-                                " not finite");
+    if (const std::string why = non_finite_words(layer.values); !why.empty())
+      add_loss(file_.notes, "layer " + std::to_string(i + 1) + ": " + why);
     else
       file_.vertex_properties.push_back(std::move(layer));
   }

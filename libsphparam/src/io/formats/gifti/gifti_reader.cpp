@@ -13,6 +13,7 @@
 #include "io/formats/gifti/gifti_data.h"
 #include "io/formats/gifti/gifti_labels.h"
 #include "io/formats/gifti/gifti_xml.h"
+#include "io/formats/non_finite_numbers.h"
 #include "io/formats/volume_geometry.h"
 #include "sphparam/io/losses.h"
 
@@ -124,9 +125,7 @@ class GiftiReader {
       return leave("only " + std::to_string(most_properties) + " are kept");
     gifti_count(array, most_inflation, name_);
     std::vector<double> values = decode_gifti(array, name_);
-    const bool finite = std::all_of(values.begin(), values.end(),
-                                    [](double value) { return std::isfinite(value); });
-    if (!finite) return leave("it has values that are not finite");
+    if (const std::string why = non_finite_words(values); !why.empty()) return leave(why);
     file_.vertex_properties.push_back({property, gifti_type(array, name_), std::move(values)});
   }
 

@@ -1,9 +1,9 @@
 #include "io/formats/ply/missing_values.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
+#include "io/formats/non_finite_numbers.h"
 #include "number_text.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/read_options.h"
@@ -23,12 +23,6 @@ std::vector<std::string> components_beside(const std::string& name) {
   return found == vectors.end() ? std::vector{name} : *found;
 }
 
-std::ptrdiff_t count_non_finite(const Property& property) {
-  if (!is_floating(property.type)) return 0;
-  const auto is_finite = [](double value) { return std::isfinite(value); };
-  return std::ssize(property.values) - std::ranges::count_if(property.values, is_finite);
-}
-
 bool is_of_rays(const std::string& property) {
   return property == "sx" || property == "sy" || property == "sz";
 }
@@ -39,11 +33,10 @@ void leave_out_non_finite(std::vector<Property>& properties, bool of_vertices,
                           const std::string& name, std::vector<std::string>& notes) {
   std::set<std::string> left_out;
   for (const Property& property : properties) {
-    const auto missing = count_non_finite(property);
-    if (missing == 0) continue;
+    const std::string why = non_finite_words(property.values);
+    if (why.empty()) continue;
     const std::string what = "property " + sphparam::quoted(property.name) + " of element " +
-                             sphparam::quoted(of_vertices ? "vertex" : "face") + ": it has " +
-                             counted(missing, "value that is", "values that are") + " not finite";
+                             sphparam::quoted(of_vertices ? "vertex" : "face") + ": " + why;
     if (of_vertices && is_of_rays(property.name)) throw ReadError(name, what);
     const std::vector<std::string> together = components_beside(property.name);
     add_loss(notes, what + (together.size() > 1 ? "; " + joined(together) + " go together" : ""));

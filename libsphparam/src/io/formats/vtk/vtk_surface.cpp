@@ -7,6 +7,7 @@
 
 #include "io/files/non_finite_advice.h"
 #include "io/formats/lossless_type.h"
+#include "io/formats/non_finite_numbers.h"
 #include "number_text.h"
 #include "sphparam/io/losses.h"
 
@@ -132,13 +133,7 @@ void adopt(const VtkArray& array, std::int64_t count, const std::vector<std::str
   if (array.count() != count)
     return leave("it has " + std::to_string(array.count()) + " tuples, not " +
                  std::to_string(count));
-  const auto odd = std::count_if(array.values.begin(), array.values.end(),
-                                 [](double value) { return !std::isfinite(value); });
-  if (odd > 0)
-    return leave(std::to_string(odd) + " of its " + std::to_string(array.values.size()) +
-                 " numbers (" +
-                 percent(static_cast<double>(odd) / static_cast<double>(array.values.size())) +
-                 ") are not finite, and a mesh keeps none of these");
+  if (const std::string why = non_finite_words(array.values); !why.empty()) return leave(why);
   const KnownArray* const known = known_array(array);
   std::size_t kept = static_cast<std::size_t>(array.width);
   if (known && known->role == VtkRole::Texcoords && kept == 3) {
