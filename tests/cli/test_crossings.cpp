@@ -50,15 +50,15 @@ TEST_CASE("info: the pairs of triangles that cross are counted, and where the fi
 }
 
 TEST_CASE("info --no-crossings: they are not looked for, and everything else is told as ever") {
-  const std::string blocks = obj_text(joined(block_corner(), block_corner(), {1, 1, 1}));
-  const std::string all = sphparam_program({"info", "-"}, blocks).out;
+  const std::string ball = obj_text(icosphere(2));
+  const std::string all = sphparam_program({"info", "-"}, ball).out;
   const std::string counted = all.substr(all.find("  crossings"));
   std::string expected = all;
   expected.replace(all.find("  crossings"), counted.find('\n'), "  crossings     not looked for");
-  const Ended ended = sphparam_program({"info", "-", "--no-crossings"}, blocks);
-  CHECK(ended.code == sphparam_program({"info", "-"}, blocks).code);
+  const Ended ended = sphparam_program({"info", "-", "--no-crossings"}, ball);
+  CHECK(ended.code == sphparam_program({"info", "-"}, ball).code);
   CHECK(ended.out == expected);
-  const Ended json = sphparam_program({"info", "-", "--no-crossings", "--json", "-"}, blocks);
+  const Ended json = sphparam_program({"info", "-", "--no-crossings", "--json", "-"}, ball);
   CHECK(Json::parse(json.out)["crossings"].is_null());
 }
 
