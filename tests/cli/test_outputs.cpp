@@ -10,6 +10,7 @@
 #include "mapped.h"
 #include "program.h"
 #include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/mesh_writer.h"
 #include "sphparam/version.h"
 #include "support/joined.h"
 #include "support/test_meshes.h"
@@ -454,6 +455,29 @@ TEST_CASE(
               "0 0 1 8\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
   const Ended own = sphparam_program({"map", folder / "c.ply", "-o", folder / "c.sph.ply"});
   CHECK_THAT(own.err, Contains("not carried: sx of vertices: the map's stand there"));
+}
+
+TEST_CASE("outputs: numbers under the names of a map's are told by all that write the map") {
+  const Folder folder;
+  MeshFile file;
+  file.mesh = icosphere(2);
+  const auto count = size_t(file.mesh.vertex_count());
+  file.set_vertex_property({"phi", ScalarType::Float64, std::vector(count, 7.0)});
+  const std::string mesh = folder / "a.ply", out = folder / "out.sph.ply", images = folder / "g";
+  write_bytes(mesh, serialise_ply(file));
+  const std::string told = mesh + ": not carried: phi of vertices: the map's stand there\n";
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"remesh", mesh, "--grid", "ico:2", "-o", out},
+           {"match", mesh, mesh, "--alike", "-o", out},
+           {"group", mesh, "--hold", "--size", "0", "--grid", "ico:2", "-o", images}}) {
+    const Ended ended = sphparam_program(words);
+    INFO(words[0] << ": " << ended.err);
+    CHECK(ended.code == 0);
+    CHECK_THAT(ended.err, Contains(told.substr(told.rfind('/') + 1)));
+  }
+  REQUIRE(sphparam_program({"map", mesh, "-o", out}).code == 0);
+  const Ended again = sphparam_program({"remesh", out, "--grid", "ico:2", "-o", mesh});
+  CHECK_THAT(again.err, !Contains("not carried: phi"));  // the map's own
 }
 
 TEST_CASE("outputs: a file may be replaced again, and keeps its permissions") {

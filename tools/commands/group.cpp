@@ -124,6 +124,7 @@ ReadShape read_shape(const std::string& path, const GroupArguments& arguments,
   MeshSource source = read_mended(path, arguments.repair, session);
   require_map(source, arguments);
   if (!arguments.landmarks.empty()) tell_other_numbers(source, session.console);
+  tell_replaced(source, session.console);
   MendedShape mended = what_was_mended(source);
   return {map_source(std::move(source), "", session, arguments.repair), std::move(mended)};
 } catch (const MeshRefusal&) {

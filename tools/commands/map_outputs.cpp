@@ -45,15 +45,6 @@ Provenance provenance(const MapOutcome& outcome) {
                        FileNumbers(outcome.source.file));
 }
 
-/// Values that are no map, under the names that a map's have.
-void add_replaced(std::vector<std::string>& losses, const MeshFile& file) {
-  if (has_map(file)) return;
-  std::vector<std::string> names;
-  for (const char* name : {"theta", "phi", "sx", "sy", "sz"})
-    if (file.find_vertex_property(name) != nullptr) names.emplace_back(name);
-  if (!names.empty()) add_loss(losses, enumerated(names) + " of vertices: the map's stand there");
-}
-
 /// The mesh gets its map where it stands: one copy of all its attributes, as they are read back, is
 /// the peak of memory.
 void add_map(const MapArguments& arguments, MapOutcome& outcome, Session& session) {

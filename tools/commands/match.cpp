@@ -95,6 +95,7 @@ MeshSource read_side(const Side& side, const RepairArguments& repair, Session& s
   return told_of(side, [&] {
     MeshSource source = read_mended(side.path, repair, session);
     require_mappable(source);
+    tell_replaced(source, session.console);
     return source;
   });
 }

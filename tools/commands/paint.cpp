@@ -108,6 +108,7 @@ MappedMesh read_painted(const PaintArguments& arguments, Session& session) {
   MeshSource source = read_mended(arguments.input, arguments.repair, session);
   if (arguments.atlas > 0 && !has_texcoords(source.file))
     throw UsageMistake("--atlas: the mesh has no texture coordinates of its own");
+  tell_replaced(source, session.console);
   return map_source(std::move(source), arguments.sphere, session, arguments.repair);
 }
 

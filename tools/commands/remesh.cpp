@@ -13,6 +13,7 @@
 #include "remesh/wanted_values.h"
 #include "reports/remesh_wording.h"
 #include "reports/told_fillers.h"
+#include "reports/told_losses.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/verify_map.h"
 #include "sphparam/io/vertex_data.h"
@@ -175,6 +176,7 @@ MappedMesh read_remeshed(const RemeshArguments& arguments, const RemeshRequests&
   MeshSource source = read_mended(arguments.input, arguments.repair, session, arguments.data,
                                   missing_values(requests));
   require_values(source.file, arguments, requests);
+  tell_replaced(source, session.console);
   return map_source(std::move(source), arguments.sphere, session, arguments.repair,
                     remeshing_lambda);
 }

@@ -19,6 +19,21 @@ void tell_notes(const MeshSource& source, Console& console) {
     if (!std::ranges::count(losses, note)) console.note(note);
 }
 
+void add_replaced(std::vector<std::string>& losses, const MeshFile& file) {
+  const auto has = [&](const char* name) { return file.find_vertex_property(name) != nullptr; };
+  if (has("sx") && has("sy") && has("sz")) return;  // they are a map's
+  std::vector<std::string> names;
+  for (const char* name : {"theta", "phi", "sx", "sy", "sz"})
+    if (has(name)) names.emplace_back(name);
+  if (!names.empty()) add_loss(losses, enumerated(names) + " of vertices: the map's stand there");
+}
+
+void tell_replaced(const MeshSource& source, Console& console) {
+  std::vector<std::string> losses;
+  add_replaced(losses, source.file);
+  tell_losses_of_reading(source.path, losses, console);
+}
+
 void tell_other_numbers(const MeshSource& source, Console& console) {
   if (std::ranges::count(source.notes, other_numbers_note))
     console.say(display_name(source.path) + ": " + other_numbers_note);

@@ -10,6 +10,10 @@ namespace sphparam::cli {
 void tell_losses(const MeshSource& source, Console& console);
 /// That, and in detail what else reading it noted.
 void tell_notes(const MeshSource& source, Console& console);
+/// What vertices have, and is no map, under the names that a map's have, which replace it.
+void add_replaced(std::vector<std::string>& losses, const MeshFile& file);
+/// Says that of a mesh whose map is written on.
+void tell_replaced(const MeshSource& source, Console& console);
 /// Says, where vertices are asked for by their numbers, that these are not rows of the file
 /// (`other_numbers_note`), if so.
 void tell_other_numbers(const MeshSource& source, Console& console);
