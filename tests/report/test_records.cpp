@@ -203,7 +203,7 @@ TEST_CASE("inspection_record: a mesh that cannot be mapped, and what would mend 
   const Json json = Json::parse(to_json(record));
   CHECK(keys_of(json) ==
         "sphparam,command,input,inspection,crossings,fillers,cavities,repair,welded,provenance,"
-        "body,notes,seconds");
+        "body,counted_twice,notes,seconds");
   CHECK(json["inspection"]["mappable"] == false);
   CHECK(json["inspection"]["boundary_loops"] == 1);
   CHECK(json["inspection"]["defects"][0]["kind"] == "boundary-edge");
@@ -233,7 +233,7 @@ TEST_CASE("inspection_record: what a closed mesh encloses, as a body of density 
                             Eigen::RowVector3d(10, 0, 0);
   const MeshSource source = source_of(mesh);
   const Json body = Json::parse(to_json(InspectionRecord{.source = source}))["body"];
-  CHECK(keys_of(body) == "centroid,inertia,principal_moments,principal_axes");
+  CHECK(keys_of(body) == "centroid,inertia,principal_moments,principal_axes,extents");
   const auto check_near = [](const Json& found, const Vector3& wanted) {
     for (int k = 0; k < 3; ++k)
       CHECK(found[size_t(k)].get<double>() == Approx(wanted[k]).margin(1e-12));
@@ -317,8 +317,7 @@ TEST_CASE("distance_record: both ways, and what is more than a limit") {
   const Json json = Json::parse(to_json(record));
   CHECK(keys_of(json) ==
         "sphparam,command,first,second,sampled,upright,first_to_second,second_to_first,two_sided,"
-        "limits,"
-        "outputs,seconds");
+        "limits,renamed,outputs,seconds");
   CHECK(json["sampled"]["on"] == Json({"faces", "vertices"}));
   CHECK(json["first_to_second"]["RMS"] == distance.forth.rms);
   CHECK(json["second_to_first"]["diag_mesh_0"] == distance.diagonal_second);
