@@ -9,6 +9,7 @@
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/vertex_data.h"
+#include "sphparam/mesh/self_crossings.h"
 #include "support/test_meshes.h"
 
 /// `sphparam match`.
@@ -128,6 +129,9 @@ TEST_CASE("match: shapes and values of the other are carried over") {
   REQUIRE(ended.code == 0);
   const MeshFile first = read_mesh(creatures.first), second = read_mesh(creatures.second);
   const MeshFile one = read_mesh(shape), other = read_mesh(back);
+  const bool some_cross =
+      find_self_crossings(one.mesh).pairs > 0 || find_self_crossings(other.mesh).pairs > 0;
+  CHECK((ended.err.find("cross others") != std::string::npos) == some_cross);
   CHECK(one.mesh.triangles == first.mesh.triangles);
   CHECK(other.mesh.triangles == second.mesh.triangles);
   CHECK((one.mesh.position(3) - second.mesh.position(3)).norm() < 1e-12);

@@ -2,6 +2,7 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <map>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -118,6 +119,57 @@ TEST_CASE(
   const auto [cut, nothing] = on_grid(in_four(in_four(in_four(large))));
   CHECK(cut.all_well());
   CHECK(nothing.empty());
+}
+
+TEST_CASE("faces in space: an adapted map folds next to nothing of a part with flat sides") {
+  const MappedMesh cut = mapped(in_four(in_four(in_four(in_four(bracket())))));
+  const auto share_of = [&](const MappedMesh& source) {
+    return faces_in_space(source, remesh(source, make_grid(parse_grid("ico:4")))).area_share;
+  };
+  CHECK(share_of(cut) == 0);
+  CHECK(share_of(adapt_map(cut, 2562).mapped) < 0.002);  // 0.13 where flat sides had a tenth
+}
+
+TEST_CASE("faces in space: of an adapted map the warning says to leave that out") {
+  const MappedMesh source = adapt_map(mapped(bracket()), 642).mapped;
+  const Remeshed made = remesh(source, make_grid(parse_grid("ico:3")));
+  const FacesInSpace found = faces_in_space(source, made);
+  CHECK(found.faces > 0);
+  CHECK_THAT(warning_of(found, source, made), Contains("leave out --adaptive"));
+}
+
+TEST_CASE("faces in space: quads with a negative Jacobian are counted, whatever their triangles") {
+  const MappedMesh source = mapped(bracket());
+  const Remeshed made = remesh(source, make_grid(parse_grid("cube:32")));
+  const FacesInSpace found = faces_in_space(source, made);
+  CHECK(found.concave_quads == 47);
+  CHECK_FALSE(found.all_well());
+  CHECK_THAT(warning_of(found, source, made),
+             Contains("; 47 quads are concave (a corner's Jacobian is negative)): what is proved"));
+  const TriangleMesh ball = icosphere(4);
+  const MappedMesh round = tests::mapped(ball, SphereMap{ball.positions});
+  CHECK(faces_in_space(round, remesh(round, make_grid(parse_grid("cube:16")))).all_well());
+}
+
+TEST_CASE("faces in space: a concave quad is told also where its triangles lie well") {
+  const TriangleMesh ball = icosphere(4);
+  const MappedMesh source = tests::mapped(ball, SphereMap{ball.positions});
+  const Remeshed made = remesh(source, make_grid(parse_grid("cube:8")));
+  MeshFile file = made.file();
+  const std::span<const int> quad = made.faces().polygon(100);
+  const auto is_cut_at = [&](Vertex v) {
+    return (made.mesh().triangles.row(200).array() == v).any() &&
+           (made.mesh().triangles.row(201).array() == v).any();
+  };
+  const size_t k = is_cut_at(quad[0]) ? 0 : 1;  // drawn along the cut, past the other diagonal
+  file.mesh.positions.row(quad[k]) =
+      0.4 * file.mesh.position(quad[k]) + 0.6 * file.mesh.position(quad[(k + 2) % 4]);
+  const MappedMesh drawn({.file = file, .map = made.map(), .polygons = made.polygons()});
+  const FacesInSpace found = faces_in_space(source, drawn);
+  CHECK(found.concave_quads == 1);
+  CHECK(found.faces == 0);
+  CHECK_THAT(warning_of(found, source, drawn),
+             Contains("mesh: of 384 faces 1 quad is concave (a corner's Jacobian is negative): "));
 }
 
 TEST_CASE("faces in space: of a surface that crosses itself its pairs are told") {

@@ -224,6 +224,9 @@ TEST_CASE("grids: a file's vertices about the origin are directions of any lengt
         "judged");
   write("-0.1");
   CHECK_THROWS_AS(load_grid(path), NotCertifiedError);
+  CHECK_THROWS_WITH(load_grid(path),
+                    Catch::Contains(": its map is one: `sphparam map grid.off -o grid.sph.ply`, "
+                                    "then like:grid.sph.ply\n"));
 }
 
 TEST_CASE("grids: the same bytes for any number of threads") {

@@ -5,6 +5,9 @@
 
 #include "commands/command.h"
 #include "io/shell_word.h"
+#include "mesh/box.h"
+#include "number_text.h"
+#include "place_text.h"
 #include "reports/told_losses.h"
 #include "sphparam/correspondence/matched_files.h"
 #include "sphparam/gltf/morph.h"
@@ -12,6 +15,7 @@
 #include "sphparam/io/losses.h"
 #include "sphparam/io/map_files.h"
 #include "sphparam/io/paths.h"
+#include "sphparam/mesh/self_crossings.h"
 #include "sphparam/report/match_page.h"
 #include "sphparam/version.h"
 
@@ -50,6 +54,19 @@ void add_morph(const MatchArguments& arguments, const Match& match, Session& ses
   });
 }
 
+/// Triangles that were well on one shape may pass through one another on the other.
+void tell_crossings(const std::string& path, const TriangleMesh& mesh, Session& session) {
+  const SelfCrossings found = find_self_crossings(
+      mesh,
+      {.most_looks = usual_looks, .threads = session.threads(), .progress = session.progress()});
+  if (found.pairs == 0) return;
+  session.warn({output_name(path) + ": " + std::to_string(found.faces) + " of " +
+                counted(mesh.face_count(), "triangle", "triangles") + " cross others (" +
+                counted(found.pairs, "pair", "pairs") + ", the first at (" +
+                place_text(found.place, longest_side(mesh)) +
+                ")): what is proved is the map; finer triangles cross less"});
+}
+
 /// The command as it may be shown to others: files without their folders.
 std::string command_line(const MatchArguments& arguments) {
   std::string line = "sphparam match";
@@ -84,7 +101,9 @@ std::vector<std::pair<std::string, std::string>> add_outputs(const MatchArgument
   const auto add = [&](const char* key, const std::string& path, const auto& make) {
     if (path.empty()) return;
     outputs.emplace_back(key, path);
-    tell_losses(path, add_mesh(session.files, path, make()), session.console);
+    const MeshFile made = make();
+    tell_losses(path, add_mesh(session.files, path, made), session.console);
+    if (path != arguments.values) tell_crossings(path, made.mesh, session);
   };
   const int threads = session.threads();
   add("shape", arguments.shape, [&] { return in_other_shape(match.map, threads); });

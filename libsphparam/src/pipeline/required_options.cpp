@@ -24,10 +24,9 @@ void require_paper(const PaperSettings& paper) {
 }
 
 void require_energy(const ParameterizeOptions& options) {
-  require_domain(options.energy);
-  if (options.energy.kind == EnergyKind::AngleAndArea) {
+  if (options.energy.kind == EnergyKind::AngleAndArea)
     require_between("energy.lambda", options.energy.lambda, least_lambda, greatest_lambda);
-  }
+  require_domain(options.energy);
 }
 
 void require_pins(const TriangleMesh& mesh, const ParameterizeOptions& options) {

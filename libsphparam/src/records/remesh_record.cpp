@@ -147,6 +147,7 @@ Json in_space_json(const LevelOfDetail& level) {
   return {{"triangles", found.faces},
           {"area_share", found.area_share},
           {"turned_over", found.turned_over},
+          {"concave_quads", found.concave_quads},
           {"crossings", crossings_json(found.crossings)},
           {"crossings_of_mesh", found.source_pairs}};
 }

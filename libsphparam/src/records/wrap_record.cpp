@@ -50,14 +50,6 @@ std::string size_line(const Wrap& wrap) {
          (wrap.skin ? ": a skin about open sheets" : "");
 }
 
-std::string crossings_warning(const SelfCrossings& found, const Wrap& wrap) {
-  return std::to_string(found.faces) + " of " +
-         counted(wrap.mesh.face_count(), "triangle", "triangles") + " of the wrap cross others (" +
-         counted(found.pairs, "pair", "pairs") + ", the first at (" +
-         place_text(found.place, longest_side(wrap.mesh)) +
-         ")): with all triangles of the lattice (--faces 0) and no --gap none do";
-}
-
 std::string skin_warning(const Wrap& wrap, double closing_distance) {
   return "the wrap encloses no more than a skin about open sheets, " +
          short_number(wrap.volume, figure_digits) +
@@ -85,6 +77,14 @@ std::string left_behind(const MeshFile& soup) {
 std::optional<SelfCrossings> crossings_of(const Wrap& wrap, int threads) {
   if (wrap.lattice_faces == wrap.mesh.face_count() && wrap.gap >= wrap.distance) return {};
   return find_self_crossings(wrap.mesh, {.most_looks = usual_looks, .threads = threads});
+}
+
+std::string crossings_warning(const SelfCrossings& found, const Wrap& wrap) {
+  return std::to_string(found.faces) + " of " +
+         counted(wrap.mesh.face_count(), "triangle", "triangles") + " of the wrap cross others (" +
+         counted(found.pairs, "pair", "pairs") + ", the first at (" +
+         place_text(found.place, longest_side(wrap.mesh)) +
+         ")): with all triangles of the lattice (--faces 0) and no --gap none do";
 }
 
 std::vector<std::string> warnings_of(const WrapRecord& record) {

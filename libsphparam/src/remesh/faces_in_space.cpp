@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "mesh/box.h"
@@ -10,6 +11,7 @@
 #include "place_text.h"
 #include "rays/flat_normal.h"
 #include "sphparam/parallel.h"
+#include "sphparam/remesh/adaptation.h"
 
 // Signs of crossings are exact, those of normals are not: near a right angle it makes no difference
 // on which side of it one is.
@@ -84,7 +86,12 @@ double share_of_area(const TriangleMesh& mesh, const FillerMarks& marks) {
   return all > 0 ? marked / all : 0;
 }
 
-/// "3 pairs of triangles cross, the first about 1 2 3; 2 are turned over"
+std::string concave_words(const FacesInSpace& found) {
+  return counted(found.concave_quads, "quad is concave", "quads are concave") +
+         " (a corner's Jacobian is negative)";
+}
+
+/// "3 pairs of triangles cross, the first about 1 2 3; 2 are turned over; 5 quads are concave"
 std::string kinds(const FacesInSpace& found, const TriangleMesh& mesh) {
   const SelfCrossings& crossings = found.crossings;
   std::vector<std::string> words;
@@ -94,7 +101,30 @@ std::string kinds(const FacesInSpace& found, const TriangleMesh& mesh) {
                     place_text(crossings.place, longest_side(mesh)) + ")");
   if (found.turned_over > 0)
     words.push_back(counted(found.turned_over, "is turned over", "are turned over"));
+  if (found.concave_quads > 0) words.push_back(concave_words(found));
   return joined(words, "; ");
+}
+
+bool is_concave(const TriangleMesh& mesh, std::span<const int> quad) {
+  const auto at = [&](size_t k) { return mesh.position(quad[k % 4]); };
+  const Vector3 normal = (at(2) - at(0)).cross(at(3) - at(1));
+  for (size_t k = 0; k < 4; ++k) {
+    if ((at(k + 1) - at(k)).cross(at(k + 3) - at(k)).dot(normal) < 0) return true;
+  }
+  return false;
+}
+
+std::int64_t concave_quads(const MappedMesh& made) {
+  if (!made.polygons()) return 0;
+  const Polygons& faces = *made.polygons();
+  const FillerMarks& fillers = made.fillers();
+  std::int64_t count = 0;
+  Face triangle = 0;  // the first that the polygon is cut into
+  for (std::int64_t p = 0; p < faces.count(); triangle += faces.degree(p++) - 2) {
+    const bool is_filler = !fillers.empty() && fillers[static_cast<size_t>(triangle)] != 0;
+    if (faces.degree(p) == 4 && !is_filler) count += is_concave(made.mesh(), faces.polygon(p));
+  }
+  return count;
 }
 
 double longest_edge(const TriangleMesh& mesh) {
@@ -120,6 +150,7 @@ std::string what_helps(const FacesInSpace& found, const MappedMesh& source,
                        const MappedMesh& made) {
   if (found.source_pairs > 0)
     return "the mesh itself has " + counted(found.source_pairs, "pair", "pairs") + " that cross";
+  if (is_adapted(source)) return "leave out --adaptive, under which what is flat has few vertices";
   const double enough = fine_enough(source.mesh(), made.mesh());
   return longest_edge(source.mesh()) > 1.1 * enough
              ? "a map bends at the sides of large triangles: map the mesh with --max-edge " +
@@ -140,6 +171,7 @@ FacesInSpace faces_in_space(const MappedMesh& source, const MappedMesh& made,
   for (size_t f = 0; f < found.crossings.marks.size(); ++f) marks[f] |= found.crossings.marks[f];
   found.faces = std::ranges::count(marks, 1);
   found.area_share = share_of_area(shape, marks);
+  found.concave_quads = concave_quads(made);
   if (found.crossings.pairs > 0)
     found.source_pairs = find_self_crossings(surface_alone(source), options).pairs;
   return found;
@@ -148,8 +180,11 @@ FacesInSpace faces_in_space(const MappedMesh& source, const MappedMesh& made,
 std::string warning_of(const FacesInSpace& found, const MappedMesh& source,
                        const MappedMesh& made) {
   if (found.all_well()) return "";
-  if (found.faces == 0)
+  if (!found.crossings.none() && found.faces == 0)
     return made.name() + ": too many triangles are near one another to say whether any cross";
+  if (found.faces == 0)
+    return made.name() + ": of " + counted(made.polygons()->count(), "face", "faces") + " " +
+           concave_words(found) + ": " + what_helps(found, source, made);
   return made.name() + ": " + std::to_string(found.faces) + " of " +
          counted(made.mesh().face_count(), "triangle", "triangles") + ", " +
          percent(found.area_share) + " of the area, cross others in space or lie inverted (" +

@@ -27,7 +27,7 @@ namespace {
 
 constexpr double scale = 0.5;    // of the curvature, in spacings: a disk of them has about a cell
 constexpr double most_bent = 2;  // times 1/spacing: a protrusion as thick as the spacing
-constexpr double spread_evenly = 0.1;  // e: no place has less than that of the mean
+constexpr double spread_evenly = 0.4;  // e: see the header
 constexpr double exponent = 0.8;       // p: see the header
 constexpr double least_gain = 1e-3;    // of a step: more does not lower the distance any more
 constexpr char adapted_key[] = "adapted_for";  // in the provenance: so many vertices

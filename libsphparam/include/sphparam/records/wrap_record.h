@@ -26,6 +26,9 @@ struct WrapRecord {
 /// lattice keeps from crossing. Cost: as `find_self_crossings`.
 std::optional<SelfCrossings> crossings_of(const Wrap& wrap, int threads = 0);
 
+/// What there is to say of them. Requires: some cross.
+std::string crossings_warning(const SelfCrossings& crossings, const Wrap& wrap);
+
 /// As `sphparam wrap --json` tells it.
 std::string to_json(const WrapRecord& record);
 

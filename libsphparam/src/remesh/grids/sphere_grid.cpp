@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "io/shell_word.h"
 #include "parsed_number.h"
 #include "remesh/grids/grid_family.h"
 #include "sphparam/errors.h"
@@ -20,6 +21,13 @@
 namespace sphparam {
 
 namespace {
+
+/// What to do with a mesh that is no sphere.
+std::string with_a_map(const std::string& path) {
+  const std::string mapped = shell_word(stem_of(path) + ".sph.ply");
+  return ": its map is one: `sphparam map " + shell_word(display_name(path)) + " -o " + mapped +
+         "`, then like:" + mapped;
+}
 
 /// Not a negative one.
 std::optional<int> whole_number(std::string_view text) {
@@ -137,7 +145,8 @@ SphereGrid load_grid(const std::string& path, const ReadOptions& read, int threa
   const MeshSource source = read_source(path, read);
   require_mappable(source);
   const TriangleMesh& mesh = source.file.mesh;
-  SphereMap map = read_sphere(source.file).value_or(SphereMap{mesh.positions});
+  const std::optional<SphereMap> given = read_sphere(source.file);
+  SphereMap map = given.value_or(SphereMap{mesh.positions});
   const Topology& topology = source.topology.value();
   const std::string warning = roundness_warning(map);
   Certificate certificate = certify(topology, map, threads);
@@ -146,8 +155,9 @@ SphereGrid load_grid(const std::string& path, const ReadOptions& read, int threa
     certificate = certify(topology, map, threads);
   }
   if (!certificate.bijective()) {
-    throw NotCertifiedError(display_name(path) + ": no sphere about the origin: " +
-                            verdict(certificate) + "\n" + complaint(certificate));
+    throw NotCertifiedError(display_name(path) +
+                            ": no sphere about the origin: " + verdict(certificate) +
+                            (given ? "" : with_a_map(path)) + "\n" + complaint(certificate));
   }
   return {.directions = std::move(map.points),
           .faces = triangles_as_polygons(mesh.triangles),
