@@ -305,6 +305,7 @@ void gather_grids(const BakeScene& scene, const TexelFinder& finder, int band,
       if (size.count() == 1) continue;
       TexelRun place = run;
       for (size_t c = 0; c < 2; ++c) place.weights[c] += k * run.step[c];
+      place.first += k;
       const size_t first = runs.size();
       finder.grid(place, size, centres.runs[i].face, runs);
       areas.clear();

@@ -1,9 +1,11 @@
 #include "bake/texels/texel_points.h"
 
+#include <cmath>
 #include <numbers>
 #include <stdexcept>
 
 #include "bake/projected_surface.h"
+#include "elementary.h"
 #include "sphere/move_to_surface.h"
 #include "sphparam/io/planetocentric.h"
 #include "sphparam/sphere/spherical_coordinates.h"
@@ -105,9 +107,33 @@ std::array<Vector3, 2> derivatives(const Eigen::Matrix3d& corners, const Surface
   return {derivative(east), derivative(south)};
 }
 
+/// Where part s of a texel's grid is on the plane of its face.
+PlaceOnTarget part_of_face(const TexelRun& texel, GridSize parts, int s) {
+  const Vector3 step = change(texel.step) / parts.east, below = change(texel.below) / parts.south;
+  const double right = s % parts.east + 0.5 - 0.5 * parts.east,
+               down = s / parts.east + 0.5 - 0.5 * parts.south;
+  return {texel.face, three(texel.weights) + right * step + down * below, step, below};
+}
+
+/// Where its centroid is on the sphere, and what spans its solid angle there: about its middle
+/// parallel, ϕ, the mean of ϕ is ϕ + h² cot ϕ/12 to the third order of its height h.
+TexelFinder::Look part_of_sphere(const TexelOwners& image, const TexelRun& texel, GridSize parts,
+                                 int s) {
+  const double width = 2 * std::numbers::pi / image.width() / parts.east,
+               height = std::numbers::pi / image.height() / parts.south;
+  const double theta = width * (texel.first * parts.east + s % parts.east + 0.5),
+               phi = height * (texel.row * parts.south + s / parts.east + 0.5);
+  const double sine = elementary::sin(phi);  // not 0: no middle is a pole
+  const Vector3 q = to_cartesian({theta, phi + height * height / 12 * elementary::cos(phi) / sine});
+  const double radius = std::sqrt(q[0] * q[0] + q[1] * q[1]);
+  return {q, width * sine / radius * Vector3(-q[1], q[0], 0),
+          height * Vector3(q[2] * q[0] / radius, q[2] * q[1] / radius, -radius)};
+}
+
 }  // namespace
 
-SurfaceRun TexelFinder::located(const Vector3& q, const Vector3& east, const Vector3& south) const {
+SurfaceRun TexelFinder::located(const Look& look) const {
+  const auto& [q, east, south] = look;
   SurfacePoint point = source_->locate(q);
   const BakeSource& source = scene_->source;
   const Eigen::Matrix3d corners =
@@ -139,29 +165,36 @@ void TexelFinder::locate(const TexelRun& place, std::vector<SurfaceRun>& runs) c
   const Eigen::Matrix3d corners = rays(chart.triangles, chart.points, place.face);
   const Vector3 first = corners * three(place.weights), east = corners * change(place.step),
                 south = corners * change(place.below);
-  for (int i = 0; i < place.count; ++i) runs.push_back(located(first + i * east, east, south));
+  for (int i = 0; i < place.count; ++i) runs.push_back(located({first + i * east, east, south}));
+}
+
+PlaceOnTarget TexelFinder::on_target(const Look& look) const {
+  const SphericalChart& chart = scene_->target.chart;
+  const SurfacePoint at = chart_->locate(look.q);
+  const auto [step, below] =
+      derivatives(rays(chart.triangles, chart.points, at.face), at, look.q, look.east, look.south);
+  return {at.face, at.barycentric, step, below};
 }
 
 void TexelFinder::grid(const TexelRun& place, GridSize size, Face near,
                        std::vector<SurfaceRun>& runs) const {
-  const Vector3 middle = three(place.weights), step = change(place.step),
-                below = change(place.below);
-  const auto east_of = [&](int s) { return (s % size.east + 0.5) / size.east - 0.5; };
-  const auto south_of = [&](int s) { return (s / size.east + 0.5) / size.south - 0.5; };
-  if (!source_) {
-    std::vector<PlaceOnTarget> places;
-    for (int s = 0; s < size.count(); ++s)
-      places.push_back({place.face, middle + east_of(s) * step + south_of(s) * below,
-                        step / size.east, below / size.south});
-    scene_->source.surface->project(scene_->target, places, near, runs);
-    return;
-  }
   const SphericalChart& chart = scene_->target.chart;
   const Eigen::Matrix3d corners = rays(chart.triangles, chart.points, place.face);
-  const Vector3 east = corners * step, south = corners * below;
-  for (int s = 0; s < size.count(); ++s)
-    runs.push_back(located(corners * middle + east_of(s) * east + south_of(s) * south,
-                           east / size.east, south / size.south));
+  // Beside the triangle of a pole weights do not change to the east, and span no area.
+  const bool by_chart = interpolation_ == Interpolation::Uv && !change(place.step).isZero(0);
+  std::vector<PlaceOnTarget> places;
+  for (int s = 0; s < size.count(); ++s) {
+    const PlaceOnTarget flat = part_of_face(place, size, s);
+    const bool in_face = by_chart && flat.at.minCoeff() >= 0;
+    if (!source_)
+      places.push_back(in_face || !chart_ ? flat
+                                          : on_target(part_of_sphere(*owners_, place, size, s)));
+    else if (in_face)
+      runs.push_back(located({corners * flat.at, corners * flat.step, corners * flat.below}));
+    else
+      runs.push_back(located(part_of_sphere(*owners_, place, size, s)));
+  }
+  if (!source_) scene_->source.surface->project(scene_->target, places, near, runs);
 }
 
 TexelPoints TexelFinder::by_direction(int band, double x, double y) const {
@@ -186,7 +219,8 @@ TexelPoints TexelFinder::by_direction(int band, double x, double y) const {
       run.step = {step[0], step[1]};
       run.below = {below[0], below[1]};
       texels.places.push_back(run);
-      texels.runs.push_back(source_ ? located(q, east, south) : projected(run, place.barycentric));
+      texels.runs.push_back(source_ ? located({q, east, south})
+                                    : projected(run, place.barycentric));
     }
   }
   return texels;

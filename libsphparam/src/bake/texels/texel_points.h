@@ -12,6 +12,8 @@
 
 namespace sphparam {
 
+struct PlaceOnTarget;
+
 /// The points of some texels, row by row from the west: runs[i] in the source mesh, and, for as
 /// many texels, places[i] in the target's chart.
 struct TexelPoints {
@@ -39,6 +41,11 @@ struct GridSize {
 /// Source: our own. Source and target share the sphere: no ray is cast, no cage needed.
 class TexelFinder {
  public:
+  /// A direction, and what it changes by to the east and to the south.
+  struct Look {
+    Vector3 q, east, south;
+  };
+
   /// Both outlive it. Requires for `Sphere`: no inverted faces in the chart (else throws
   /// std::invalid_argument).
   TexelFinder(const BakeScene& scene, const TexelOwners& owners, Interpolation interpolation,
@@ -53,8 +60,10 @@ class TexelFinder {
   SurfaceRun run_in_source(const TexelRun& place) const;
 
   /// Appends a grid of points of the source in a texel, row by row: those of the middles of its
-  /// parts, beyond the texel's face too, and what a part covers. `place`: the run of the chart at
-  /// the texel's centre. `near`: a face of the source that may be near, which changes nothing.
+  /// parts, and what a part covers, whose solid angle is narrower nearer to a pole. Of `Uv`, parts
+  /// within the texel's face are as it leads to them, others by their directions; on a surface
+  /// without a map all are on the plane of the face. `place`: the run of one texel of the chart at
+  /// its centre. `near`: a face of the source that may be near, which changes nothing.
   /// Requires: the source is not the target, or `Sphere`.
   void grid(const TexelRun& place, GridSize size, Face near, std::vector<SurfaceRun>& runs) const;
 
@@ -67,7 +76,8 @@ class TexelFinder {
   void locate(const TexelRun& place, std::vector<SurfaceRun>& runs) const;
   void project(const TexelRun& place, std::vector<SurfaceRun>& runs) const;
   SurfaceRun projected(const TexelRun& place, const Vector3& at) const;
-  SurfaceRun located(const Vector3& q, const Vector3& east, const Vector3& south) const;
+  SurfaceRun located(const Look& look) const;
+  PlaceOnTarget on_target(const Look& look) const;
   TexelPoints by_direction(int band, double x, double y) const;
 
   const BakeScene* scene_;
