@@ -182,7 +182,7 @@ TEST_CASE("program: what is meant for other subcommands is answered with what ta
   CHECK_THAT(told({"group", scans, "-o", folder / "g"}, 3),
              Contains("a group takes files, as in `sphparam group '" + scans + "/*.ply' -o OUT`"));
   CHECK_THAT(told({"survey", mesh, "-o", folder / "s.html"}, 3),
-             Contains("is no folder: `sphparam info '" + mesh + "'` tells of one mesh"));
+             Contains("Not a directory: `sphparam info '" + mesh + "'` tells of one mesh"));
   CHECK_THAT(told({"map", mesh, "c.off", "-o", "x.ply"}, 2),
              Contains("unexpected argument c.off; one mesh is mapped: `sphparam batch plan FILES"));
   CHECK_THAT(told({"batch", "plan", scans, "-o", folder / "w", "map", "--repair"}, 2),

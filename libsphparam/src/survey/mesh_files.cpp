@@ -38,8 +38,8 @@ class Search {
     root_ = fs::canonical(folder_, error);
     if (error) throw ReadError(folder, error.message());
     if (!fs::is_directory(root_, error))
-      throw ReadError(folder,
-                      "is no folder: `sphparam info " + shell_file(folder) + "` tells of one mesh");
+      throw ReadError(
+          folder, "Not a directory: `sphparam info " + shell_file(folder) + "` tells of one mesh");
   }
 
   std::vector<std::string> run() {
