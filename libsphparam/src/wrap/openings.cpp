@@ -33,9 +33,11 @@ double hollow_share_at(const Lattice& lattice, std::vector<float> field, double 
   return hollow_share(field, solid);
 }
 
-/// Two digits, not below the number.
+/// Two digits, not below the number. Requires: it is above 0 and finite.
 double rounded_up(double value) {
-  const double units = std::pow(10.0, 1 - std::floor(std::log10(value)));
+  double units = 1;
+  while (value * units < 10) units *= 10;
+  while (value * units >= 100) units /= 10;
   return std::ceil(value * units) / units;
 }
 
