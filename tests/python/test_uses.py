@@ -648,6 +648,50 @@ def test_faces_that_cross_are_counted_and_named():
     assert found.marks.tolist() == [False, False, False, True, True, True, True, False]
 
 
+def bracket():
+    """An extruded L of 20 large triangles: 80 × 60 × 25, walls 8 thick."""
+    outline = np.array([[0, 0], [80, 0], [80, 8], [8, 8], [8, 60], [0, 60]], float)
+    vertices = np.vstack([np.column_stack([outline, np.full(6, z)]) for z in (0, 25)])
+    walls = [t for i in range(6) for t in ((i, (i + 1) % 6, (i + 1) % 6 + 6), (i, (i + 1) % 6 + 6, i + 6))]
+    ends = [t for i in (0, 1, 4, 5) for t in ((3, (i + 1) % 6, i), (9, i + 6, (i + 1) % 6 + 6))]
+    return vertices, np.array(walls + ends)
+
+
+def test_faces_of_a_remesh_that_cross_are_counted_and_told(mapped):
+    assert mapped.in_space is None
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        clean = mapped.remesh("ico:3").in_space
+    assert (clean.triangles, clean.area_share, clean.turned_over, clean.crossings) == (0, 0, 0, 0)
+    part = sp.map(*bracket(), weight=sp.remeshing_lambda)
+    with pytest.warns(sp.LossWarning, match=r"ico:3: \d+ of 1280 triangles, .*map the mesh with repair=dict\(edge_length=") as told:
+        made = part.remesh("ico:3")
+    assert made.warnings == [str(told[0].message)]
+    found = made.in_space
+    assert found.crossings == sp.self_crossings(made).pairs > 0 and found.turned_over > 0 and found.all_looked_at
+    assert 0 < found.area_share < 0.05 and found.concave_quads == 0 and found.crossings_of_mesh == 0
+    with pytest.warns(sp.LossWarning, match="leave out adaptive=True"):
+        part.remesh("ico:3", adaptive=True)
+    with pytest.warns(sp.LossWarning, match="47 quads are concave"):
+        assert part.remesh("cube:32").in_space.concave_quads == 47
+
+
+def test_faces_carry_arrays():
+    number = np.arange(len(F))
+    mesh = sp.Mesh(V, F, face_values={"pressure": number / 2, "region": number % 3, "flux": V[F].mean(axis=1)})
+    assert (mesh.face_values["pressure"] == number / 2).all() and (mesh.face_values["region"] == number % 3).all()
+    assert mesh.face_values["flux"].shape == (len(F), 3)
+    again = sp.Mesh(mesh, face_values={"pressure": number})
+    assert (again.face_values["pressure"] == number).all() and "region" in again.face_values
+    assert (mesh.face_values["pressure"] == number / 2).all()
+    made = sp.map(V, F, face_values={"pressure": number / 2})
+    assert (made.face_values["pressure"] == number / 2).all()
+    with pytest.raises(ValueError, match=rf"face_values\['pressure'\]: {len(F)} rows are needed, one a face"):
+        sp.Mesh(V, F, face_values={"pressure": V[:, 0]})
+    with pytest.raises(TypeError, match="face_values: names with arrays are needed, not ndarray"):
+        sp.map(V, F, face_values=number)
+
+
 def test_aligned_harmonics_do_not_depend_on_how_the_mesh_lies(mapped):
     quarter = np.array([[0, 1, 0], [-1, 0, 0], [0, 0, 1]])
     turned = sp.with_sphere((7 + mapped.vertices @ quarter, F), mapped.points)

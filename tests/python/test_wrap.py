@@ -32,6 +32,15 @@ def test_the_largest_part_alone_and_fewer_triangles(soup):
     assert found.mesh.vertices[:, 0].min() > 1  # the closed one
 
 
+def test_triangles_of_a_wrap_that_cross_are_counted_and_told():
+    vertices, faces = potato(3)
+    sheet = vertices * [1, 1, 0.02], faces[::2]  # two sides, nearly in one place
+    with pytest.warns(sp.LossWarning, match=r"of the wrap cross others .*\(triangles=0\) and no gap none do"):
+        found = sp.wrap(*sheet, resolution=48, gap=1e-3)
+    assert found.crossings == sp.self_crossings(found.mesh).pairs > 0
+    assert sp.wrap(*sheet, resolution=48).crossings == 0
+
+
 def test_drawn_in_a_solid_has_its_size():
     found = sp.wrap(*potato(4), resolution=64, gap=1e-3)
     assert found.gap == 1e-3 and found.insides == 1 and found.cavities == 0

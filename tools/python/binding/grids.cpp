@@ -7,12 +7,14 @@
 #include "call.h"
 #include "sphparam/remesh/adaptation.h"
 #include "sphparam/remesh/displacement.h"
+#include "sphparam/remesh/faces_in_space.h"
 #include "sphparam/remesh/harmonic_surface.h"
 #include "sphparam/remesh/levels_of_detail.h"
 #include "sphparam/remesh/remesh.h"
 #include "sphparam/remesh/sphere_grid.h"
 #include "sphparam/remesh/subdivision.h"
 #include "sphparam/remesh/texture_layout.h"
+#include "texts.h"
 
 namespace sphparam::python {
 namespace {
@@ -88,12 +90,39 @@ RemeshRequest remesh_request_of(const py::dict& values) {
   return request;
 }
 
-Mapped remesh_on(const Mapped& mapped, const py::object& grid, const py::dict& values,
-                 const py::object& progress) {
+py::dict as_dict(const FacesInSpace& found) {
+  py::dict dict;
+  dict["triangles"] = found.faces;
+  dict["area_share"] = found.area_share;
+  dict["turned_over"] = found.turned_over;
+  dict["concave_quads"] = found.concave_quads;
+  dict["crossings"] = found.crossings.pairs;
+  dict["all_looked_at"] = found.crossings.all;
+  dict["crossings_of_mesh"] = found.source_pairs;
+  return dict;
+}
+
+/// What was made, how its faces lie in space, and what there is to say of that.
+struct Seen {
+  Remeshed made;
+  FacesInSpace found;
+  std::string warning;
+};
+
+Seen seen(Remeshed made, const MappedMesh& source, int threads, const Progress& report) {
+  FacesInSpace found = faces_in_space(
+      source, made, {.most_looks = usual_looks, .threads = threads, .progress = report});
+  std::string warning = warning_of(found, source, made);
+  return {std::move(made), std::move(found), std::move(warning)};
+}
+
+/// The map, its figures in space and the warning, empty where all is well.
+py::tuple remesh_on(const Mapped& mapped, const py::object& grid, const py::dict& values,
+                    const py::object& progress) {
   const GridRequest onto = request_of(grid);
   const RemeshRequest wanted = remesh_request_of(values);
   const bool own_texture = is_of_grid(wanted.texture, onto, "uv");
-  return call(progress, [=, source = mapped.mesh()](const Progress& report) mutable {
+  const Seen result = call(progress, [=, source = mapped.mesh()](const Progress& report) mutable {
     RemeshOptions options = wanted.options;
     options.progress = report;
     const int threads = options.threads;
@@ -105,8 +134,9 @@ Mapped remesh_on(const Mapped& mapped, const py::object& grid, const py::dict& v
     Remeshed found = remesh(source, std::move(made), options);
     if (own_texture)
       found = with_grid_texture(found, texture_layout(found.spec().value(), usual_texels), threads);
-    return Mapped(found);
+    return seen(std::move(found), source, threads, report);
   });
+  return py::make_tuple(Mapped(result.made), as_dict(result.found), as_text(result.warning));
 }
 
 Mapped surface_of_harmonics(const Expansion& expansion,

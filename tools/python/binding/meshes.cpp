@@ -211,6 +211,11 @@ void declare_source(py::module_& module) {
              std::erase_if(self.mesh.file.vertex_properties,
                            [&](const Property& property) { return property.name == name; });
            })
+      .def("drop_face_values",
+           [](Source& self, const std::string& name) {
+             std::erase_if(self.mesh.file.face_properties,
+                           [&](const Property& property) { return property.name == name; });
+           })
       .def("set_face_values", [](Source& self, const std::string& name, const std::string& type,
                                  const Values& values) {
         self.mesh.file.set_face_property(property_of(name, type, values));

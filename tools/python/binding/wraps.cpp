@@ -3,7 +3,9 @@
 #include "binding.h"
 #include "call.h"
 #include "sphparam/io/fillers.h"
+#include "sphparam/records/wrap_record.h"
 #include "sphparam/wrap/wrap.h"
+#include "texts.h"
 
 namespace sphparam::python {
 namespace {
@@ -48,17 +50,23 @@ py::tuple wrap(const Source& soup, const py::dict& values, const py::object& pro
   const MeshFile& file = soup.mesh.file;
   const auto triangles =
       std::make_shared<const TriangleMesh>(surface_of(file.mesh, fillers_of(file)));
-  Wrap made = call(progress, [wanted, triangles](const Progress& report) {
+  auto [made, crossings] = call(progress, [wanted, triangles](const Progress& report) {
     WrapOptions options = wanted;
     options.progress = report;
-    return wrap_soup(*triangles, options);
+    Wrap found = wrap_soup(*triangles, options);
+    std::optional<SelfCrossings> crossing = crossings_of(found, options.threads);
+    return std::pair(std::move(found), std::move(crossing));
   });
   const py::dict figures = figures_of(made);
+  figures["crossings"] = crossings ? crossings->pairs : 0;
+  const bool cross = crossings && crossings->pairs > 0;
+  const std::string warning = cross ? crossings_warning(*crossings, made) : "";
   MeshSource mesh;
   mesh.path = "mesh";
   mesh.file.format = "arrays";
   mesh.file.mesh = std::move(made.mesh);
-  return py::make_tuple(std::make_unique<Source>(Source{std::move(mesh)}), figures);
+  return py::make_tuple(std::make_unique<Source>(Source{std::move(mesh)}), figures,
+                        as_text(warning));
 }
 
 }  // namespace

@@ -12,6 +12,8 @@ _typed_here = {
     "image_width is": "image_size is",
     "align_to: ": "align: ",
     "say --alike": "say alike=True",
+    "leave out --adaptive": "leave out adaptive=True",
+    "(--faces 0) and no --gap": "(triangles=0) and no gap",
     "give --landmarks": "give landmarks",
     "a smaller --feature-weight": "a smaller feature_weight=",
     "(--unit)": "(unit=)",
@@ -34,6 +36,7 @@ def as_typed_here(message: str) -> str:
     """A message of the library, with arguments where it names options of the program."""
     for option, argument in _typed_here.items():
         message = message.replace(option, argument)
+    message = re.sub(r"--max-edge (\S+)", r"repair=dict(edge_length=\1)", message)
     message = re.sub(r"--repair --weld (\S+)%", _as_weld_typed, message)
     return re.sub(r": --convention (\w+) shows", r': convention="\1" shows', message)
 

@@ -364,4 +364,23 @@ class SelfCrossings(NamedTuple):
     """Where these two are."""
 
 
+class InSpace(NamedTuple):
+    """How the flat faces of a remesh lie in space, of which the proof of its map says nothing."""
+
+    triangles: int
+    """Faces that cross others or are turned over."""
+    area_share: float
+    """Of the area, what these have."""
+    turned_over: int
+    """Faces that look the other way than the surface and what lies about them."""
+    concave_quads: int
+    """Of ``cube:N`` and other quads: those with a negative Jacobian at a corner."""
+    crossings: int
+    """Pairs of faces that cross; :func:`self_crossings` says which."""
+    all_looked_at: bool
+    """False where too many faces are near one another: there may be more pairs."""
+    crossings_of_mesh: int
+    """Pairs of faces of the mesh itself that cross, counted where those of the remesh do."""
+
+
 document(globals())

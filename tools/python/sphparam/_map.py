@@ -42,6 +42,7 @@ def map(
     faces: Any = None,
     *,
     values: Optional[Mapping[str, Any]] = None,
+    face_values: Optional[Mapping[str, Any]] = None,
     repair: Union[bool, Mapping[str, Any]] = False,
     method: str = "progressive",
     balance: Union[str, float] = "balanced",
@@ -66,7 +67,7 @@ def map(
 
     Parameters
     ----------
-    mesh, faces, values
+    mesh, faces, values, face_values
         As :class:`Mesh` takes them: two arrays, or a mesh of trimesh, PyVista, VTK, meshio, nibabel or
         Open3D. Nothing is changed or welded: ``points[i]`` is where ``vertices[i]`` goes.
     repair
@@ -133,7 +134,7 @@ def map(
         measure_stages=measure_stages, threads=threads,
     )  # fmt: skip
     mending = repair_options(repair)
-    found = any_mesh(mesh, faces, values)
+    found = any_mesh(mesh, faces, values, face_values)
     with told(progress) as report:
         if mending is not None:
             found = mended(found, mending, report)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Callable, Dict, List, NoReturn, Optional,
 
 from . import _core, _values
 from ._errors import as_typed_here
-from ._figures import Action, Certificate, Distortion, FaceDistortion, HandleLoop, Radial, Stage
+from ._figures import Action, Certificate, Distortion, FaceDistortion, HandleLoop, InSpace, Radial, Stage
 from ._mesh import Mesh, numbered
 from ._numpy import np
 
@@ -239,14 +239,21 @@ class MapFacts:
         return None if found is None else Radial(*found)
 
     @property
+    def in_space(self) -> Optional[InSpace]:
+        """How the flat faces of a remesh made here lie in space; else None. The proof is of the map, not of them."""
+        found: Optional[InSpace] = self._found.get("in_space")
+        return found
+
+    @property
     def energy_gap(self) -> Optional[float]:
         """An estimate of the share of its energy that more steps would take; None: not made."""
         return self._account().get("energy_gap")
 
     @property
     def warnings(self) -> List[str]:
-        """What there is to say of how the map came out, and of a surface that is inside out."""
-        said: List[str] = self._account().get("warnings", [])
+        """What there is to say of how the map came out, of a surface that is inside out, and of faces of a remesh that
+        cross in space."""
+        said: List[str] = self._account().get("warnings", []) + self._found.get("warnings", [])
         if not self._account().get("inside_out", False):
             return list(said)
         turned = "the faces are clockwise from outside, the volume is negative: faces[:, ::-1] or repair=True turns them"

@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Iterable, List, Optional, Sequence, Tuple, Union
 
 from . import _arrays, _core
+from ._errors import as_typed_here
+from ._figures import InSpace
 from ._losses import tell
 from ._map_facts import MapFacts, mapped_of
 from ._mesh import centre_of
@@ -38,7 +40,8 @@ class MapGrids(MapFacts):
     ) -> SphereMap:
         """The surface on a grid of the sphere, whose directions are the map of the result.
 
-        Holes that were kept are closed in the result as well: its ``fillers`` mark these faces.
+        Holes that were kept are closed in the result as well: its ``fillers`` mark these faces. Faces that cross
+        others in space or lie inverted, although the map is one-to-one, are counted (:attr:`in_space`) and warned of.
 
         Parameters
         ----------
@@ -67,8 +70,13 @@ class MapGrids(MapFacts):
             "threads": _arrays.threads(threads),
         }
         with told(progress) as report:
-            made = _core.remesh(self._mapped, grid_of(grid), options, report)
-        return SphereMap._of(made)
+            made, figures, warning = _core.remesh(self._mapped, grid_of(grid), options, report)
+        remeshed = SphereMap._of(made)
+        remeshed._found["in_space"] = InSpace(**figures)
+        if warning:
+            remeshed._found["warnings"] = [as_typed_here(warning)]
+            tell([warning])
+        return remeshed
 
     def levels(self, count: int, *, threads: int = 0, progress: Progress = None) -> List[SphereMap]:
         """Levels of detail on icosahedra, the first with a quarter of the vertices, and so on; fewer at 12."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, Dict, List, Mapping, NoReturn, Optional, Tuple, Union
+from typing import TYPE_CHECKING, Any, Dict, List, Mapping, NoReturn, Optional, Sequence, Tuple, Union
 
 from . import _arrays, _core, _values
 from ._errors import Defect, MeshError, ReadError, WriteError, as_typed_here
@@ -66,6 +66,8 @@ class Mesh:
         What vertices carry besides: name to (V,) or (V, k). ``"color"`` (uint8, or floats from 0 to 1),
         ``"normal"`` and ``"uv"`` (v upwards, as in OBJ) are known by their names; whole
         numbers are labels, never interpolated.
+    face_values
+        What faces carry: name to (F,) or (F, k).
 
     Raises
     ------
@@ -88,8 +90,9 @@ class Mesh:
         faces: Any = None,
         *,
         values: Optional[Mapping[str, Any]] = None,
+        face_values: Optional[Mapping[str, Any]] = None,
     ) -> None:
-        made = any_mesh(vertices, faces, values)
+        made = any_mesh(vertices, faces, values, face_values)
         made._require_sound()
         self._source, self._sound, self._share = made._source, True, made._share
         self._welds, self._outside = made._welds, ""
@@ -259,7 +262,12 @@ def numbered(count: int) -> npt.NDArray[numpy.int32]:
     return numbers
 
 
-def any_mesh(mesh: Any, faces: Any, values: Optional[Mapping[str, Any]] = None) -> Mesh:
+def any_mesh(
+    mesh: Any,
+    faces: Any,
+    values: Optional[Mapping[str, Any]] = None,
+    face_values: Optional[Mapping[str, Any]] = None,
+) -> Mesh:
     """Of whatever users have. It may name vertices that are not there: see `_require_sound`."""
     from ._map_facts import MapFacts
 
@@ -267,7 +275,8 @@ def any_mesh(mesh: Any, faces: Any, values: Optional[Mapping[str, Any]] = None) 
         if faces is not None:
             raise TypeError("faces: the mesh has its own")
         found = mesh if isinstance(mesh, Mesh) else mesh.mesh
-        return found if not values else _with_values(found._with(_core.copied(found._source)), values)
+        given = values or face_values
+        return found if not given else _with_values(found._with(_core.copied(found._source)), values, face_values)
     parts = parts_of(mesh) if faces is None else None
     vertices, faces = (parts.vertices, parts.faces) if parts else (_arrays.points(mesh), _arrays.triangles(faces))
     source, finite, inside = _core.source_of(vertices, faces)
@@ -278,7 +287,7 @@ def any_mesh(mesh: Any, faces: Any, values: Optional[Mapping[str, Any]] = None) 
             source.set_face_values(*row)
     made = Mesh._of(source, finite and inside)
     made._outside = "" if inside else _outside(faces, len(vertices))
-    return _with_values(made, values)
+    return _with_values(made, values, face_values)
 
 
 def _outside(faces: Array, count: int) -> str:
@@ -288,18 +297,30 @@ def _outside(faces: Array, count: int) -> str:
     return f"there are {count} vertices, 0 to {count - 1}, and faces name {first}"
 
 
-def _with_values(mesh: Mesh, values: Optional[Mapping[str, Any]]) -> Mesh:
-    if values is not None and not isinstance(values, Mapping):
-        raise TypeError(f"values: names with arrays are needed, not {type(values).__name__}")
-    if values:
-        added = _values.Columns(len(mesh.vertices), there=mesh._source.vertex_values())
-        for name, thing in values.items():
-            added.add(name, thing)
-        for column in added.dropped:
-            mesh._source.drop_vertex_values(column)
-        for row in added.rows:
-            mesh._source.set_vertex_values(*row)
+def _with_values(mesh: Mesh, values: Optional[Mapping[str, Any]], face_values: Optional[Mapping[str, Any]]) -> Mesh:
+    source = mesh._source
+    added = _added(values, len(mesh.vertices), "vertex", source.vertex_values())
+    for column in added.dropped:
+        source.drop_vertex_values(column)
+    for row in added.rows:
+        source.set_vertex_values(*row)
+    added = _added(face_values, len(mesh.faces), "face", source.face_values())
+    for column in added.dropped:
+        source.drop_face_values(column)
+    for row in added.rows:
+        source.set_face_values(*row)
     return mesh
+
+
+def _added(given: Optional[Mapping[str, Any]], count: int, what: str, there: Sequence[Tuple[str, Array]]) -> _values.Columns:
+    """As columns, beside those that are there."""
+    if given is not None and not isinstance(given, Mapping):
+        name = "values" if what == "vertex" else "face_values"
+        raise TypeError(f"{name}: names with arrays are needed, not {type(given).__name__}")
+    added = _values.Columns(count, what, there if given else ())
+    for name, thing in (given or {}).items():
+        added.add(name, thing)
+    return added
 
 
 _limits = (

@@ -98,7 +98,7 @@ def _require_colours(array: Array, label: str) -> None:
 
 def columns(name: Any, thing: Any, count: int, what: str = "vertex") -> Rows:
     """An array of values, one row a vertex or face, as columns: name, PLY type, doubles."""
-    label = f"values[{name!r}]"
+    label = f"{'values' if what == 'vertex' else 'face_values'}[{name!r}]"
     if not isinstance(name, str) or not re.fullmatch(r"[^\s\x00-\x1f\x7f]+", name):
         raise ValueError(f"{label}: a name without blanks is needed")
     _arrays.text(name, label)

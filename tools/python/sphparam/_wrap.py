@@ -7,6 +7,7 @@ from typing import Any, NamedTuple, Tuple
 from . import _arrays, _core
 from ._attributes import document
 from ._figures import Distance, one_sided
+from ._losses import tell
 from ._mesh import Mesh, any_mesh
 from ._progress import Progress, told
 
@@ -46,6 +47,8 @@ class Wrap(NamedTuple):
     """Vertices that are not inside: of parts that were dropped, or cut by a surface with fewer triangles."""
     apart: Distance
     """How far wrap and triangles are from one another: ``forth`` is from the wrap."""
+    crossings: int
+    """Pairs of its faces that cross, which is warned of: with fewer ``triangles`` or a ``gap``; else there are none."""
 
 
 def wrap(
@@ -79,7 +82,7 @@ def wrap(
         Of the surface from the triangles, a voxel at least; 0: two voxels.
     gap
         Draw the surface in at last, until so much of the distance is left; it may cut into what it is about,
-        and itself, then. 0: all of the distance.
+        and itself, then, which a warning tells. 0: all of the distance.
     largest
         Keep the largest of the parts that are apart, instead of joining all.
     triangles
@@ -108,7 +111,8 @@ def wrap(
         "threads": _arrays.threads(threads),
     }
     with told(progress) as report:
-        source, figures = _core.wrap(soup._source, options, report)
+        source, figures, warning = _core.wrap(soup._source, options, report)
+    tell([warning] if warning else [])
     apart = figures.pop("apart")
     apart["forth"], apart["back"] = one_sided(apart["forth"]), one_sided(apart["back"])
     return Wrap(mesh=Mesh._of(source), apart=Distance(**apart), **figures)
