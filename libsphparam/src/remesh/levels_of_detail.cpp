@@ -165,7 +165,8 @@ GridWithin coarsest_grid_within(const MappedMesh& source, double most,
                                 const LevelOptions& options) {
   require_at_least("most", most, 0);
   require_measurable(source.mesh());
-  GridWithin found{.most = most, .max = std::numeric_limits<double>::infinity()};
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  GridWithin found{.most = most, .max = infinity};
   for (int level = 0; level <= finest_sought; ++level) {
     found.grid = {.kind = GridKind::Icosahedron, .size = level};
     const Remeshed made = remesh(source, found.grid,
@@ -174,7 +175,8 @@ GridWithin coarsest_grid_within(const MappedMesh& source, double most,
                                   .threads = options.threads,
                                   .progress = options.progress});
     if (made.surface().face_count() == 0) continue;  // holes alone
-    found.max = deviation(source, made, most, options);
+    const bool is_last = level == finest_sought;  // which is told however far it is
+    found.max = deviation(source, made, is_last ? infinity : most, options);
     if (found.holds()) break;
   }
   return found;
