@@ -56,7 +56,8 @@ TEST_CASE("info: cavities are told, not sent to a wrap, and not called inside ou
   CHECK_THAT(all.err, Contains("a cavity within component 1)") && !Contains("inside out"));
 }
 
-TEST_CASE("info: what parts share counts twice, which is told, and length, width and thickness are") {
+TEST_CASE(
+    "info: what parts share counts twice, which is told, and length, width and thickness are") {
   const Folder folder;
   TriangleMesh limb = icosphere(3), small = icosphere(1);
   limb.positions *= Eigen::Vector3d(2, 8, 4).asDiagonal();

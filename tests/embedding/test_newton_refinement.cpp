@@ -23,8 +23,8 @@ std::vector<ImagePoint> image_of(const SphereMap& map) {
 struct Draft {
   TriangleMesh mesh;
   Topology topology{mesh};
-  std::vector<ImagePoint> image =
-      image_of(*embed_by_levels(mesh, topology, {.quality = Quality::Draft}, {}, {.demanding = 0}).map);
+  std::vector<ImagePoint> image = image_of(
+      *embed_by_levels(mesh, topology, {.quality = Quality::Draft}, {}, {.demanding = 0}).map);
 
   int size() const { return topology.vertex_count(); }
 

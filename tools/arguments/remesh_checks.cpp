@@ -45,9 +45,9 @@ std::optional<GridSpec> grid_asked_for(const RemeshArguments& arguments) {
   if (arguments.grid.starts_with(like_prefix)) return std::nullopt;
   try {
     const GridSpec grid = parse_grid(arguments.grid);
-    require_memory("--grid " + arguments.grid + ": its " + std::to_string(vertex_count(grid)) +
-                       " vertices",
-                   least_bytes_a_vertex * static_cast<double>(vertex_count(grid)));
+    require_memory(
+        "--grid " + arguments.grid + ": its " + std::to_string(vertex_count(grid)) + " vertices",
+        least_bytes_a_vertex * static_cast<double>(vertex_count(grid)));
     return grid;
   } catch (const std::invalid_argument& error) {
     throw UsageMistake("--grid " + arguments.grid + ": " + error.what());

@@ -81,8 +81,7 @@ void tell_stages(const MapOutcome& outcome, Console& console) {
     if (std::find(told.begin(), told.end(), note) == told.end()) console.detail("  note: " + note);
   tell_repairs(outcome.source, console);
   // What looks wrong on the map is told unasked.
-  for (const std::string& warning : shape_warnings(outcome.source))
-    console.warning(warning);
+  for (const std::string& warning : shape_warnings(outcome.source)) console.warning(warning);
   for (const MeshDefect& defect : outcome.source.inspection.defects)
     if (defect.kind != DefectKind::InsideOut) console.detail("  note: " + defect.message);
   if (outcome.account) {

@@ -24,7 +24,8 @@ HarmonicExpansion read_harmonics(const std::string& path);
 HarmonicExpansion parse_harmonics(std::string_view text, const std::string& name);
 
 /// One line a coefficient: l, m, then one number a function; a header line first, commas (or tabs)
-/// between. Numbers come back exactly. Names end with " (4pi)" where coefficients are 4π-normalised.
+/// between. Numbers come back exactly. Names end with " (4pi)" where coefficients are
+/// 4π-normalised.
 std::string to_csv(const HarmonicExpansion& expansion, char separator = ',');
 
 /// The coefficients of a function as a table of spherical harmonics in ASCII (SHADR of the PDS),

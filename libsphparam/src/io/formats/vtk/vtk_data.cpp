@@ -209,8 +209,9 @@ VtkArray VtkDecoder::numbers(const VtkXmlArray& array, std::int64_t count,
   if (count != 0 && array.encoding == VtkEncoding::Ascii) {
     decoded.values = numbers_of_text(array, type, name_);
   } else if (count != 0) {
-    DataReader reader(document_, array, name_,
-                      is_bits ? numbers_left_ / bits_per_byte : numbers_left_ * size_in_bytes(type));
+    DataReader reader(
+        document_, array, name_,
+        is_bits ? numbers_left_ / bits_per_byte : numbers_left_ * size_in_bytes(type));
     decoded.values = is_bits
                          ? bits_of_bytes(reader.bytes(), count)
                          : numbers_of_bytes(reader.bytes(), type, document_.order, array, name_);
