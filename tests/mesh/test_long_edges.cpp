@@ -74,7 +74,7 @@ TEST_CASE("long edges: none is longer, the surface and its vertices stay") {
   CHECK(cut.mesh.face_count() == 12 + 2 * cut.actions[0].count);
 }
 
-TEST_CASE("long edges: a square's diagonal is halved first, then its sides") {
+TEST_CASE("long edges: of six alike each is halved once, and none that is just as long") {
   const TriangleMesh mesh = tetrahedron();
   const double side = longest_edge(mesh);
   CHECK(repair_mesh(mesh, edges_of(side)).actions.empty());
