@@ -328,7 +328,7 @@ def test_edges_that_are_longer_are_halved():
     box = sp.Mesh([[0, 0, 0], [4, 0, 0], [4, 1, 0], [0, 1, 0], [0, 0, 1], [4, 0, 1], [4, 1, 1], [0, 1, 1]],
                   [[0, 2, 1], [0, 3, 2], [4, 5, 6], [4, 6, 7], [0, 1, 5], [0, 5, 4],
                    [1, 2, 6], [1, 6, 5], [2, 3, 7], [2, 7, 6], [3, 0, 4], [3, 4, 7]],
-                  values={"along": [0, 4, 4, 0, 0, 4, 4, 0]})  # fmt: skip
+                  values={"along": [0.0, 4, 4, 0, 0, 4, 4, 0]})  # fmt: skip
     cut = sp.repair(box, edge_length=0.5)
     ends = cut.vertices[cut.faces]
     assert np.linalg.norm(ends - np.roll(ends, 1, axis=1), axis=2).max() <= 0.5
