@@ -328,6 +328,24 @@ TEST_CASE("distance_record: both ways, and what is more than a limit") {
   CHECK_THAT(to_text(record), StartsWith("1: a.ply\n2: b.ply\n") && Contains("\nlarger"));
 }
 
+TEST_CASE("distance_record: of nearly all it is not said that all is within") {
+  MeshFile ball;
+  ball.mesh = icosphere(1);
+  const DistanceOptions options{.within = 0.5};
+  SurfaceDistance distance;
+  const DistanceRecord record{.first = "a.ply",
+                              .second = "b.ply",
+                              .first_file = ball,
+                              .second_file = ball,
+                              .options = options,
+                              .distance = distance};
+  distance.forth.within = 0.99999;
+  distance.back.within = 1;
+  CHECK_THAT(to_text(record), Contains("\nwithin 0.5: 99.9 % of 1, 100 % of 2\n"));
+  distance.forth.within = 0.25;
+  CHECK_THAT(to_text(record), Contains("\nwithin 0.5: 25 % of 1,"));
+}
+
 TEST_CASE("harmonics_record: coefficients come back exactly, as JSON and as a table") {
   const MappedMesh mapped = ball();
   const HarmonicExpansion expansion = expand_in_harmonics(mapped, {}, {.degree = 2});

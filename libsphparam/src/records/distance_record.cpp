@@ -131,13 +131,19 @@ std::string percentile_rows(const SurfaceDistance& distance) {
          "the larger 95 % (HD95): " + short_number(distance.p95(), 6) + "\n";
 }
 
+/// All is said of all alone.
+std::string share_of_all(std::optional<double> share) {
+  constexpr double nearly_all = 0.999;
+  return percent(share.value_or(0) < 1 ? std::min(share.value_or(0), nearly_all) : 1);
+}
+
 /// Empty where that was not asked for.
 std::string within_line(const DistanceRecord& record) {
   if (!record.options.within) return "";
   const SurfaceDistance& distance = record.distance;
   return "within " + short_number(*record.options.within, 6) + ": " +
-         percent(distance.forth.within.value_or(0)) + " of 1, " +
-         percent(distance.back.within.value_or(0)) + " of 2\n";
+         share_of_all(distance.forth.within) + " of 1, " + share_of_all(distance.back.within) +
+         " of 2\n";
 }
 
 }  // namespace
