@@ -124,8 +124,10 @@ TEST_CASE("image codec: the texts of an image are told, and nothing that is no t
     decode_image(encode_image(ramp(2, 2, 3, 256), format, about), "m", {}, &texts);
     return texts;
   };
-  CHECK(texts_of(ImageFormat::Png) ==
-        ImageTexts{{"oiio:ColorSpace", "sRGB"}, {"sphparam:map", "ao"}, {"sphparam:source", "a"}});
+  CHECK(texts_of(ImageFormat::Png) == ImageTexts{{"sphparam:samples", "uint8"},
+                                                 {"oiio:ColorSpace", "sRGB"},
+                                                 {"sphparam:map", "ao"},
+                                                 {"sphparam:source", "a"}});
   const ImageTexts tiff = texts_of(ImageFormat::Tiff);
   const auto is_number = [](const auto& text) {
     return text.first == "ResolutionUnit" || text.second.empty();
