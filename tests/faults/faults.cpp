@@ -37,6 +37,11 @@ namespace fs = std::filesystem;
 constexpr double most_seconds = 60;  // then a run counts as hanging
 constexpr int killed = 128 + SIGKILL, interrupted = 130;
 
+/// Empty where there is none: a fault may have kept it from being made.
+std::string bytes_or_none(const fs::path& path) {
+  return fs::exists(path) ? bytes_of(path) : std::string();
+}
+
 void write_off(const fs::path& path, const sphparam::TriangleMesh& mesh) {
   std::ofstream file(path);
   file << "OFF\n" << mesh.vertex_count() << ' ' << mesh.face_count() << " 0\n" << mesh.positions;
@@ -152,7 +157,7 @@ class Scene {
 
   /// Of reports, which hold times, and of pages, which tell of faults, only the ends are known.
   bool is_new(const std::string& output) const {
-    const std::string bytes = bytes_of(folder_ / output);
+    const std::string bytes = bytes_or_none(folder_ / output);
     if (output.ends_with(".html"))
       return bytes.starts_with("<!DOCTYPE html>") && bytes.ends_with("</html>\n");
     if (output != "report.json") return bytes == new_.at(output);
@@ -172,7 +177,7 @@ class Scene {
 
   bool is_old(const std::string& output, bool fresh) const {
     if (fresh || output == errand_.unnamed) return !fs::exists(folder_ / output);
-    return bytes_of(folder_ / output) == "old " + output;
+    return bytes_or_none(folder_ / output) == "old " + output;
   }
 
   std::vector<std::string> temporaries() const {
