@@ -211,7 +211,7 @@ struct RepairedMesh {
 /// get caps, bent apart and out of the surface's way. No position changes, and no face but its
 /// names. Components are ranked by area; of equal ones the one with more faces comes first, then
 /// the one with the lowest vertex. Long edges are halved where they are the longest of both of
-/// their faces (Rivara 1997), so that angles stay more than half of what they were.
+/// their faces (Rivara 1997), so that the least angle stays at least half of what it was.
 ///
 /// Throws: NoSuchComponent; std::range_error where edges are to be so short that faces could not be
 ///         numbered; std::invalid_argument unless component ≥ 0, least_kept from 0 to 1,

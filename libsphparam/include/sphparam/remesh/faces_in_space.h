@@ -16,7 +16,7 @@ struct FacesInSpace {
   std::int64_t turned_over = 0;    // triangles that look the other way
   std::int64_t faces = 0;          // that cross another or are turned over
   std::int64_t concave_quads = 0;  // a corner of them has a negative Jacobian
-  double area_share = 0;           // of these; 0 where there is no area
+  double area_share = 0;           // of `faces`; 0 where there is no area
   std::int64_t source_pairs = 0;   // of faces of the surface itself that cross; counted only where
                                    // the new ones do
 

@@ -10,9 +10,9 @@
 #include "number_text.h"
 #include "sphparam/mesh/topology.h"
 
-// An edge is halved that is the longest of both of its faces, so that both are cut across: angles
-// stay more than half of what they were, however often. From a face that is too long such an edge
-// is found across longest edges, each longer than the one before (Rivara, "New longest-edge
+// An edge is halved that is the longest of both of its faces, so that both are cut across: the
+// least angle stays at least half of what it was, however often. From a face that is too long such
+// an edge is found across longest edges, each longer than the one before (Rivara, "New longest-edge
 // algorithms for the refinement and/or improvement of unstructured triangulations", 1997).
 
 namespace sphparam {
