@@ -52,6 +52,43 @@ TEST_CASE("remesh: --adaptive is nearer to the source, certified, and reported")
   }
 }
 
+TEST_CASE("remesh: --lambda is that of the map that is made, or adapted") {
+  const Folder folder;
+  const std::string mesh = folder / "shape.obj", mapped = folder / "shape.sph.ply",
+                    out = folder / "new.xyz.csv";
+  write_bytes(mesh, obj_text(spiked_ball()));
+  const auto rows_of = [&](const std::string& source, const std::vector<std::string>& more) {
+    std::vector<std::string> line = {"remesh", source, "--grid", "ico:3", "--csv", out};
+    line.insert(line.end(), more.begin(), more.end());
+    REQUIRE(sphparam_program(line).code == 0);
+    return bytes_of(out);
+  };
+  for (const char* lambda : {"1", "5", "20"}) {
+    INFO(lambda);
+    REQUIRE(sphparam_program({"map", mesh, "--lambda", lambda, "-o", mapped}).code == 0);
+    CHECK(rows_of(mesh, {"--lambda", lambda}) == rows_of(mapped, {}));
+  }
+  CHECK(rows_of(mesh, {}) == rows_of(mesh, {"--lambda", "5"}));
+  CHECK(rows_of(mapped, {"--adaptive"}) == rows_of(mapped, {"--adaptive", "--lambda", "5"}));
+  CHECK(rows_of(mapped, {"--adaptive"}) != rows_of(mapped, {"--adaptive", "--lambda", "1"}));
+}
+
+TEST_CASE("remesh: --lambda is refused where a map is there, and of numbers that are none") {
+  const Folder folder;
+  const std::string mesh = folder / "shape.obj", mapped = folder / "shape.sph.ply";
+  write_bytes(mesh, obj_text(icosphere(2)));
+  REQUIRE(sphparam_program({"map", mesh, "-o", mapped}).code == 0);
+  const Ended there = sphparam_program(
+      {"remesh", mapped, "--grid", "ico:2", "--lambda", "1.5", "-o", folder / "new.ply"});
+  CHECK(there.code == 2);
+  CHECK_THAT(there.err, Contains("shape.sph.ply has one: map the mesh anew, as by `sphparam map "
+                                 "--lambda 1.5`, or leave --lambda out"));
+  const Ended none = sphparam_program(
+      {"remesh", mesh, "--grid", "ico:2", "--lambda", "0", "-o", folder / "new.ply"});
+  CHECK(none.code == 2);
+  CHECK_THAT(none.err, Contains("1e-10 to 1e6"));
+}
+
 TEST_CASE("remesh: --adaptive has the same bytes for one thread and three") {
   const Folder folder;
   const std::string mesh = folder / "shape.obj", out = folder / "new.ply";

@@ -183,7 +183,12 @@ TEST_CASE("faces in space: of a surface that crosses itself its pairs are told")
   CHECK(found.crossings.pairs > 0);
   CHECK(found.source_pairs == found.crossings.pairs);
   CHECK(found.turned_over == 0);
-  CHECK_THAT(warning_of(found, source, source), Contains("the mesh itself has"));
+  CHECK_THAT(warning_of(found, source, source),
+             Contains("the mesh itself has " + std::to_string(found.source_pairs) +
+                      " pairs that cross; a map bends at the sides of large triangles: "));
+  const MappedMesh whole = tests::mapped(icosphere(4), SphereMap{icosphere(4).positions});
+  CHECK_THAT(warning_of(faces_in_space(whole, source), whole, source),
+             Contains("the map; on a finer grid, or with a smaller --lambda of the map, "));
 }
 
 }  // namespace sphparam::tests

@@ -2,6 +2,7 @@
 
 #include "arguments/map_arguments.h"
 
+#include "arguments/energy_words.h"
 #include "console/exit_codes.h"
 #include "console/places.h"
 #include "sphparam/io/mesh_reader.h"
@@ -11,8 +12,6 @@
 namespace sphparam::cli {
 
 namespace {
-
-const Range<double> lambdas = {least_lambda, greatest_lambda, "1e-10 to 1e6"};
 
 void settle_poles(const std::string& text, ParameterizeOptions& options) {
   options.automatic_poles = text != "none";

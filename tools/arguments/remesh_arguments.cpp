@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "arguments/energy_words.h"
+
 namespace sphparam::cli {
 
 namespace {
@@ -121,6 +123,9 @@ void declare_remesh_options(Declaration& command, RemeshArguments& arguments) {
       .text("--areas", arguments.areas, "SOURCE,GRID",
             "With --sample adap-bary-area: surfaces, or files of areas a vertex, of the mesh's and "
             "of the grid's vertices (default: the mesh, and what becomes of it)")
+      .number("--lambda", arguments.lambda, "NUMBER", lambdas,
+              "Weight of area against angle in a map that is made or adapted here, " +
+                  lambdas.text() + ": less has fewer faces that cross, more is nearer")
       .flag("--adaptive", arguments.adaptive,
             "Relax the map first, so that where the surface bends it gets more vertices");
   declare_subdivision(command, arguments);
@@ -131,6 +136,7 @@ void declare_remesh_options(Declaration& command, RemeshArguments& arguments) {
   declare_outputs(command, arguments);
   declare_repair_options(command, arguments.repair);
   command.threads(arguments).console(arguments);
+  arguments.given = command.given();
 }
 
 }  // namespace sphparam::cli

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "arguments/numbers.h"
 #include "arguments/repair_arguments.h"
 #include "sphparam/io/certified_files.h"
+#include "sphparam/remesh/adaptation.h"
 #include "sphparam/remesh/displacement.h"
 #include "sphparam/remesh/sphere_grid.h"
 #include "sphparam/remesh/texture_layout.h"
@@ -30,10 +32,11 @@ struct RemeshArguments : CommonArguments {
   std::string grid;
   std::optional<Amount> within;  // how far the new mesh may be: a level of the grid ico is sought
   std::string output;
-  Words data;          // numbers a vertex in files of their own
-  std::string areas;   // of vertices: two files, on the source and on the grid
-  Words data_outputs;  // a file for each of `data`
-  Naming naming;       // of `output` and what lies beside it
+  Words data;                        // numbers a vertex in files of their own
+  double lambda = remeshing_lambda;  // of a map that is made or adapted here
+  std::string areas;                 // of vertices: two files, on the source and on the grid
+  Words data_outputs;                // a file for each of `data`
+  Naming naming;                     // of `output` and what lies beside it
   std::string transfer = "all";
   std::optional<TextureOf> uv;
   SampleMode sample = SampleMode::Point;
@@ -52,6 +55,7 @@ struct RemeshArguments : CommonArguments {
   bool degrees = false;  // in it
   FillersInFile holes = FillersInFile::Marked;
   RepairArguments repair;
+  std::function<bool(const std::string&)> given;  // was this option on the command line?
 };
 
 void declare_remesh_options(Declaration& command, RemeshArguments& arguments);

@@ -10,11 +10,13 @@
 #include "commands/remesh_outputs.h"
 #include "commands/sources.h"
 #include "console/places.h"
+#include "number_text.h"
 #include "remesh/wanted_values.h"
 #include "reports/remesh_wording.h"
 #include "reports/told_fillers.h"
 #include "reports/told_losses.h"
 #include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/sphere_file.h"
 #include "sphparam/io/verify_map.h"
 #include "sphparam/io/vertex_data.h"
 #include "sphparam/measure/measurable.h"
@@ -84,8 +86,9 @@ TimedGrid grid_for(const RemeshArguments& arguments, const RemeshRequests& reque
 std::optional<Adaptation> adapt(const RemeshArguments& arguments, const MappedMesh& mapped,
                                 std::int64_t samples, Session& session) {
   if (!arguments.adaptive) return std::nullopt;
-  Adaptation adapted =
-      adapt_map(mapped, samples, {.threads = session.threads(), .progress = session.progress()});
+  Adaptation adapted = adapt_map(
+      mapped, samples,
+      {.lambda = arguments.lambda, .threads = session.threads(), .progress = session.progress()});
   if (adapted.steps == 0) {
     session.console.warning(
         display_name(arguments.input) +
@@ -169,6 +172,16 @@ void require_values(const MeshFile& source, const RemeshArguments& arguments,
   throw UsageMistake("--transfer: " + std::string(error.what()));
 }
 
+/// Throws: UsageMistake for a --lambda that a map is not made with.
+void require_use_of_lambda(const MeshFile& source, const RemeshArguments& arguments) {
+  const bool has_map = !arguments.sphere.empty() || read_sphere(source).has_value();
+  if (!arguments.given("--lambda") || arguments.adaptive || !has_map) return;
+  throw UsageMistake("--lambda is for maps that are made here, and " +
+                     display_name(arguments.input) +
+                     " has one: map the mesh anew, as by `sphparam map --lambda " +
+                     shortest(arguments.lambda) + "`, or leave --lambda out");
+}
+
 /// The mesh with its map; what it lacks is told before it is mapped, which may take minutes.
 MappedMesh read_remeshed(const RemeshArguments& arguments, const RemeshRequests& requests,
                          Session& session) {
@@ -176,9 +189,10 @@ MappedMesh read_remeshed(const RemeshArguments& arguments, const RemeshRequests&
   MeshSource source = read_mended(arguments.input, arguments.repair, session, arguments.data,
                                   missing_values(requests));
   require_values(source.file, arguments, requests);
+  require_use_of_lambda(source.file, arguments);
   tell_replaced(source, session.console);
   return map_source(std::move(source), arguments.sphere, session, arguments.repair,
-                    remeshing_lambda);
+                    arguments.lambda);
 }
 
 /// Refuses what cannot be fitted or measured; tells of fillers that count as surface.

@@ -148,14 +148,20 @@ double fine_enough(const TriangleMesh& surface, const TriangleMesh& grid) {
 
 std::string what_helps(const FacesInSpace& found, const MappedMesh& source,
                        const MappedMesh& made) {
-  if (found.source_pairs > 0)
-    return "the mesh itself has " + counted(found.source_pairs, "pair", "pairs") + " that cross";
   if (is_adapted(source)) return "leave out --adaptive, under which what is flat has few vertices";
   const double enough = fine_enough(source.mesh(), made.mesh());
   return longest_edge(source.mesh()) > 1.1 * enough
              ? "a map bends at the sides of large triangles: map the mesh with --max-edge " +
                    short_number(enough, 2)
-             : "on a finer grid they are a smaller share of it";
+             : "on a finer grid, or with a smaller --lambda of the map, they are a smaller share "
+               "of "
+               "it";
+}
+
+/// "the mesh itself has 89 pairs that cross, "
+std::string what_was_there(const FacesInSpace& found) {
+  if (found.source_pairs == 0) return "";
+  return "the mesh itself has " + counted(found.source_pairs, "pair", "pairs") + " that cross; ";
 }
 
 }  // namespace
@@ -188,7 +194,7 @@ std::string warning_of(const FacesInSpace& found, const MappedMesh& source,
   return made.name() + ": " + std::to_string(found.faces) + " of " +
          counted(made.mesh().face_count(), "triangle", "triangles") + ", " +
          percent(found.area_share) + " of the area, cross others in space or lie inverted (" +
-         kinds(found, made.mesh()) + "): what is proved is the map; " +
+         kinds(found, made.mesh()) + "): what is proved is the map; " + what_was_there(found) +
          what_helps(found, source, made);
 }
 
