@@ -33,6 +33,18 @@ TEST_CASE("mesh_defects: a sphere has none, genus 0, and the right size") {
   CHECK(inspection.area == Approx(4 * 3.14159265).epsilon(0.02));
 }
 
+TEST_CASE("mesh_defects: of points alone it is said what makes a surface of them") {
+  TriangleMesh points = icosphere(0);
+  points.triangles.resize(0, 3);
+  const MeshInspection found = inspect_mesh(points);
+  REQUIRE(found.defects.size() == 2);
+  CHECK(found.defects[0].kind == DefectKind::Empty);
+  CHECK(found.defects[0].message ==
+        "the mesh has no faces (of points alone a surface has to be made first, as by Poisson "
+        "reconstruction in MeshLab or CloudCompare)");
+  CHECK(found.defects[1].kind == DefectKind::UnusedVertex);
+}
+
 TEST_CASE("mesh_defects: a torus has genus 1 and nothing else wrong") {
   const MeshInspection inspection = inspect_mesh(torus(8, 8, 3, 1));
   REQUIRE(inspection.defects.size() == 1);

@@ -56,7 +56,12 @@ class Inspector {
   MeshInspection run() {
     result_.vertices = vertices_;
     result_.faces = faces_;
-    if (faces_ == 0) add_fatal(DefectKind::Empty, 1, {}, "the mesh has no faces", "");
+    if (faces_ == 0) {
+      add_fatal(DefectKind::Empty, 1, {},
+                "the mesh has no faces (of points alone a surface has to be made first, as by "
+                "Poisson reconstruction in MeshLab or CloudCompare)",
+                "");
+    }
     check_indices();
     check_positions();
     if (const auto topology = closed_manifold()) {
