@@ -331,6 +331,62 @@ TEST_CASE("measure: a body that is nearly round is told of as well where glTF ha
   CHECK_THAT(said(stays, "other.obj"), !Contains("glTF"));
 }
 
+TEST_CASE("measure: --align puts B onto A first, and tells the matrix") {
+  const Folder folder;
+  TriangleMesh body = icosphere(3);
+  for (Vertex v = 0; v < body.vertex_count(); ++v) {
+    const Vector3 x = body.position(v);
+    const double lump = std::exp(-8 * (x - Vector3(0.8, 0.5, 0.33).normalized()).squaredNorm());
+    body.positions.row(v) = (1 + 0.4 * lump) * x.cwiseProduct(Vector3(1.5, 1.1, 0.8));
+  }
+  const std::string a = folder / "a.obj", b = folder / "b.obj", c = folder / "c.obj";
+  write_bytes(a, obj_text(body));
+  // (x, y, z) ↦ (10 − x, −y, z): half a turn about z, after which all but the lump fits.
+  TriangleMesh turned = body;
+  turned.positions.col(0) = 10 - body.positions.col(0).array();
+  turned.positions.col(1) = -body.positions.col(1);
+  write_bytes(b, obj_text(turned));
+  turned.positions *= 1000;
+  write_bytes(c, obj_text(turned));
+  const auto aligned = [&](const std::string& other, const std::string& word,
+                           std::vector<std::string> options = {"--json", "-"}) {
+    options.insert(options.begin(), {"measure", a, other, "--samples", "1000", "--align", word});
+    return sphparam_program(options);
+  };
+  CHECK(Json::parse(aligned(b, "none").out)["alignment"].is_null());
+  const Ended ended = aligned(b, "rigid");
+  CHECK(ended.code == 0);
+  const Json report = Json::parse(ended.out), &alignment = report["alignment"];
+  const double wanted[4][4] = {{-1, 0, 0, 10}, {0, -1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
+  for (int i = 0; i < 4; ++i)
+    for (int k = 0; k < 4; ++k)
+      CHECK(alignment["matrix"][i][k].get<double>() == Approx(wanted[i][k]).margin(1e-12));
+  CHECK(alignment["kind"] == "rigid");
+  CHECK(alignment["scale"] == 1);
+  CHECK(alignment["degrees"].get<double>() == Approx(180).epsilon(1e-12));
+  CHECK(alignment["start"] == "principal axes");
+  CHECK(alignment["kept"] == 1);
+  CHECK(report["two_sided"]["max"].get<double>() < 1e-12);
+  CHECK_THAT(ended.err, !Contains("may be turned"));
+
+  const Ended scaled = aligned(c, "similarity");
+  CHECK(Json::parse(scaled.out)["alignment"]["scale"].get<double>() ==
+        Approx(0.001).epsilon(1e-12));
+  CHECK_THAT(scaled.err, !Contains("are both in one unit"));
+  const Ended table = aligned(c, "similarity", {});
+  CHECK_THAT(table.out,
+             Contains("2 is put onto 1: turned by 180°, scaled by 0.001, and moved; sought "
+                      "from principal axes; RMS ") &&
+                 Contains(" of the 100 % of samples within ") && Contains("; its matrix:\n") &&
+                 Contains("\n  0 0 0 1\n"));
+  CHECK_THAT(aligned(b, "loosely").err, Contains("none, rigid, similarity"));
+  const std::string flat = folder / "flat.obj";
+  TriangleMesh point = body;
+  point.positions.setOnes();
+  write_bytes(flat, obj_text(point));
+  CHECK_THAT(aligned(flat, "rigid").err, Contains("flat.obj: it is too"));
+}
+
 TEST_CASE("measure: meshes that are no spheres are measured too, empty ones are not") {
   const Folder folder;
   const std::string one = folder / "one.obj", two = folder / "two.obj",

@@ -79,7 +79,7 @@ const std::map<std::string, std::set<std::string>> below{
     {"image", {"io", "mesh"}},
     {"texture", {"image", "io", "sphere", "mesh"}},
     {"rays", {"mesh"}},
-    {"measure", {"rays", "sphere", "mesh"}},
+    {"measure", {"rays", "embedding", "sphere", "mesh"}},
     {"render", {"texture", "image", "io", "chart", "sphere", "mesh"}},
     {"bake", {"render", "rays", "texture", "image", "io", "chart", "sphere", "mesh"}},
     {"paint", {"bake", "texture", "image", "io", "chart", "sphere", "mesh"}},

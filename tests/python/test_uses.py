@@ -485,6 +485,30 @@ def test_the_distance_of_every_vertex_and_its_side(mapped):
         sp.measure(mapped, (V, F[1:]), samples=100, signed=True)
 
 
+def test_a_surface_is_put_onto_another_before_it_is_measured():
+    axes = V * [1.5, 1.1, 0.8]
+    lump = axes * (1 + 0.4 * np.exp(-8 * ((V / np.linalg.norm(V, axis=1)[:, None] - [0.8, 0.5, 0.33]) ** 2).sum(axis=1)))[:, None]
+    turn = np.diag([-1.0, -1, 1])  # half a turn about z, after which all but the lump fits
+    moved = 1000 * lump @ turn.T + [10, 0, 0]
+    found = sp.measure((lump, F), (moved, F), samples=1000, align="similarity")
+    assert found.max < 1e-11 and found.alignment.scale == pytest.approx(0.001, rel=1e-12)
+    matrix = found.alignment.matrix
+    assert np.allclose(moved @ matrix[:3, :3].T + matrix[:3, 3], lump, rtol=0, atol=1e-11) and (matrix[3] == [0, 0, 0, 1]).all()
+    assert found.alignment.start == "principal axes" and found.alignment.kept == 1 and found.alignment.rms < 1e-11
+    rigid = sp.measure((lump, F), (moved / 1000, F), samples=1000, align="rigid")
+    assert rigid.alignment.scale == 1 and rigid.max < 1e-11
+    assert sp.measure((lump, F), (moved, F), samples=1000).alignment is None
+    with pytest.raises(ValueError, match="align: 'none', 'rigid' or 'similarity', not 'loosely'"):
+        sp.measure((lump, F), (moved, F), align="loosely")
+
+
+def test_surfaces_are_measured_as_they_stand(tmp_path):
+    m = sp.map(V * [1, 2, 3], F)
+    m.export(tmp_path / "a.glb")  # y is up there, z in front
+    assert sp.measure(m, sp.read(tmp_path / "a.glb"), samples=1000).max > 0.5
+    assert sp.measure(m, sp.read(tmp_path / "a.glb"), samples=1000, upright=True).max < 1e-6
+
+
 def test_the_centroid_is_a_centre_as_on_the_command_line(tmp_path):
     mesh = sp.Mesh(V + [0, 0, 5.0], F)
     mesh.save(tmp_path / "a.ply")
@@ -674,6 +698,51 @@ def test_faces_of_a_remesh_that_cross_are_counted_and_told(mapped):
         part.remesh("ico:3", adaptive=True)
     with pytest.warns(sp.LossWarning, match="47 quads are concave"):
         assert part.remesh("cube:32").in_space.concave_quads == 47
+
+
+def test_levels_in_space_are_counted_and_told(mapped):
+    assert [level.in_space.triangles for level in mapped.levels(2)] == [0, 0]
+    with pytest.warns(sp.LossWarning):
+        fine = sp.map(*bracket(), weight=sp.remeshing_lambda).remesh("ico:4")
+    with pytest.warns(sp.LossWarning, match=r"\d+ of \d+ triangles, ") as told:
+        (level,) = fine.levels(1)
+    assert level.warnings == [str(told[0].message)]
+    assert level.in_space.crossings == sp.self_crossings(level).pairs > 0
+
+
+def test_the_coarsest_grid_that_is_near_enough(mapped):
+    near = mapped.remesh("ico", within=0.05)
+    assert sp.measure(mapped, near).max <= 0.05
+    counts = [10 * 4**level + 2 for level in range(10)]
+    coarser = mapped.remesh(f"ico:{counts.index(len(near.vertices)) - 1}")
+    assert sp.measure(mapped, coarser).max > 0.05
+    with pytest.raises(ValueError, match="within finds the level of grid='ico', and is not for 'ico:3'"):
+        mapped.remesh("ico:3", within=0.1)
+    with pytest.raises(ValueError, match="within is not for areas, adaptive"):
+        mapped.remesh("ico", within=0.1, adaptive=True)
+    with pytest.raises(ValueError, match="within: a length, at least 0, not -1"):
+        mapped.remesh("ico", within=-1)
+
+
+def test_areas_of_surfaces_weigh_values(tmp_path):
+    mapped = sp.map(V, F, values={"height": V[:, 0] ** 2})
+    other = 2 * V * [1, 1, 3]
+    options = dict(sample="adap-bary-area")
+    own = mapped.remesh("ico:1", **options)
+    grid = own.mesh
+    given = mapped.remesh("ico:1", areas=(sp.Mesh(other, F), grid), **options)
+    assert (given.values["height"] != own.values["height"]).any()
+    mapped.save(tmp_path / "a.sph.ply")
+    sp.write(tmp_path / "b.ply", other, F)
+    grid.save(tmp_path / "c.ply")
+    program("remesh", "a.sph.ply", "--grid", "ico:1", "--sample", "adap-bary-area", "--areas", "b.ply,c.ply", "-o", "d.sph.ply", cwd=tmp_path)
+    assert (sp.load(tmp_path / "d.sph.ply").values["height"] == given.values["height"]).all()
+    ones = mapped.remesh("ico:1", areas=([1] * len(V), np.ones(42)), **options)
+    assert (ones.values["height"] != own.values["height"]).any()
+    with pytest.raises(ValueError, match=r"areas: 42 are needed, one a vertex of the grid, not 41"):
+        mapped.remesh("ico:1", areas=(np.ones(len(V)), np.ones(41)), **options)
+    with pytest.raises(ValueError, match='areas: for sample="adap-bary-area" alone'):
+        mapped.remesh("ico:1", areas=(np.ones(len(V)), np.ones(42)))
 
 
 def test_faces_carry_arrays():

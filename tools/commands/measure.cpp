@@ -19,6 +19,7 @@
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/up_axis.h"
+#include "sphparam/measure/alignment.h"
 #include "sphparam/records/distance_record.h"
 #include "sphparam/render/coloured_values.h"
 
@@ -36,6 +37,7 @@ constexpr char summary[] =
     "  sphparam measure statue.obj statue_low.ply --per-vertex error.ply\n"
     "  sphparam measure scan.ply part.stl --signed --per-vertex deviation.ply --range -0.1,0.1\n"
     "  sphparam measure scan.ply part.stl --within 0.1\n"
+    "  sphparam measure part.stl scan.ply --align rigid\n"
     "  sphparam measure visit1.sph.ply visit2.sph.ply --growth --per-vertex growth.ply\n"
     "\n"
     "Both directions: samples spread evenly over each surface, and their nearest points on the\n"
@@ -43,6 +45,8 @@ constexpr char summary[] =
     "between the samples. Any meshes: they need not be closed. Lengths are in the unit of the\n"
     "meshes, % are of the diagonal of A's bounding box. The exit status is 6 where a limit is\n"
     "exceeded.\n";
+
+enum class Align { None, Rigid, Similarity };
 
 struct MeasureArguments : CommonArguments {
   std::string first;
@@ -52,6 +56,7 @@ struct MeasureArguments : CommonArguments {
   std::string per_vertex;
   RepairArguments repair;                               // of both
   bool upright = false;                                 // as their files say what is up
+  Align align = Align::None;                            // the second onto the first, before
   bool growth = false;                                  // of areas: both have the same triangles
   std::optional<std::pair<double, double>> range;       // of the colours
   std::optional<Amount> max_rms, max_distance, within;  // % of the diagonal of the first's box
@@ -90,6 +95,14 @@ std::string way_on(const MeasureArguments& arguments, const MeshFile& second, Si
          "`sphparam wrap` with anything else, and give closed.ply as B (--repair mends A as well)";
 }
 
+[[noreturn]] void refuse(const UnmeasurableSurface& error, const MeasureArguments& arguments,
+                         const MeshFile& first, const MeshFile& second) {
+  const bool first_is_it = error.side() == Side::First;
+  const std::string name = display_name(first_is_it ? arguments.first : arguments.second);
+  if ((first_is_it ? first : second).mesh.face_count() == 0) throw ReadError(name, error.what());
+  throw UnmeasurableMesh(name + ": " + error.what() + way_on(arguments, second, error.side()));
+}
+
 SurfaceDistance measure(const MeasureArguments& arguments, const MeshFile& first,
                         const MeshFile& second, Session& session) try {
   DistanceOptions options = arguments.options;
@@ -97,10 +110,22 @@ SurfaceDistance measure(const MeasureArguments& arguments, const MeshFile& first
   options.progress = session.progress();
   return measure_distance(first.mesh, second.mesh, options);
 } catch (const UnmeasurableSurface& error) {
-  const bool first_is_it = error.side() == Side::First;
-  const std::string name = display_name(first_is_it ? arguments.first : arguments.second);
-  if ((first_is_it ? first : second).mesh.face_count() == 0) throw ReadError(name, error.what());
-  throw UnmeasurableMesh(name + ": " + error.what() + way_on(arguments, second, error.side()));
+  refuse(error, arguments, first, second);
+}
+
+/// Puts the second onto the first, where that is wanted.
+std::optional<Alignment> align(const MeasureArguments& arguments, const MeshFile& first,
+                               MeshFile& second, Session& session) try {
+  if (arguments.align == Align::None) return std::nullopt;
+  const Alignment alignment = align_surfaces(first.mesh, second.mesh,
+                                             {.scale = arguments.align == Align::Similarity,
+                                              .seed = arguments.options.seed,
+                                              .threads = session.threads(),
+                                              .progress = session.progress()});
+  second.mesh.positions = moved(std::move(second.mesh.positions), alignment.motion);
+  return alignment;
+} catch (const UnmeasurableSurface& error) {
+  refuse(error, arguments, first, second);
 }
 
 std::vector<DistanceLimit> judge(const MeasureArguments& arguments,
@@ -336,16 +361,17 @@ int run_measure(MeasureArguments& arguments) {
   settle_sampled(arguments.sampled, arguments.options);
   require_sensible(arguments);
   const MeshFile first = read_surface(arguments.first, arguments.repair, session);
-  const MeshFile second =
+  MeshFile second =
       placed(arguments, first, read_surface(arguments.second, arguments.repair, session), session);
   session.hold_signals();
-  tell_units(arguments, first, second, session);
+  if (arguments.align != Align::Similarity) tell_units(arguments, first, second, session);
+  const std::optional<Alignment> alignment = align(arguments, first, second, session);
   if (arguments.within)
     arguments.options.within = arguments.within->of(
         Vector3(surface_box(first.mesh).upper - surface_box(first.mesh).lower).norm());
   const std::optional<Growth> growth = growth_asked_for(arguments, first, second);
   const SurfaceDistance distance = measure(arguments, first, second, session);
-  if (!arguments.upright) tell_turned(arguments, first, second, distance, session);
+  if (!arguments.upright && !alignment) tell_turned(arguments, first, second, distance, session);
   DistanceRecord record = {.first = arguments.first,
                            .second = arguments.second,
                            .first_file = first,
@@ -353,6 +379,7 @@ int run_measure(MeasureArguments& arguments) {
                            .options = arguments.options,
                            .distance = distance,
                            .upright = arguments.upright,
+                           .alignment = alignment,
                            .growth = growth,
                            .limits = judge(arguments, distance)};
   if (!arguments.per_vertex.empty()) {
@@ -411,6 +438,11 @@ void declare_options(Declaration& command, MeasureArguments& arguments) {
       .flag("--upright", arguments.upright,
             "B turned as A stands, by what their files say is up and in front: y and z in glTF; z "
             "and -y where nothing says")
+      .choice(
+          "--align", arguments.align,
+          {{"none", Align::None}, {"rigid", Align::Rigid}, {"similarity", Align::Similarity}},
+          "First put B onto A, turned and moved until samples of both are as near as they come, "
+          "leaving out what one of them lacks; similarity: also scaled")
       .json(arguments);
   declare_length(command, "--within", arguments.within,
                  "Also which share of each surface is no farther than this from the other; % of "

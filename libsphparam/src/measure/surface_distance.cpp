@@ -14,6 +14,7 @@
 
 #include "measure/enclosure.h"
 #include "measure/farthest_point.h"
+#include "measure/measurable_side.h"
 #include "measure/surface_samples.h"
 #include "number_text.h"
 #include "rays/ray_scene.h"
@@ -349,15 +350,6 @@ OneSidedDistance measure_one_side(Side side, const TriangleMesh& from, const Tar
   if (options.within) result.within = static_cast<double>(points.samples.near) / count;
   if (inside) result.deviation = deviation_of(points, direction, result);
   return result;
-}
-
-void require_measurable(const TriangleMesh& mesh, Side side) {
-  if (mesh.face_count() == 0) throw UnmeasurableSurface(side, "there are no triangles to measure");
-  if (mesh.triangles.minCoeff() < 0 || mesh.triangles.maxCoeff() >= mesh.vertex_count())
-    throw UnmeasurableSurface(side, "a triangle names a vertex that is not there");
-  if (!mesh.positions.allFinite()) {
-    throw UnmeasurableSurface(side, "a coordinate is not a finite number");
-  }
 }
 
 void require_closed(const TriangleMesh& second) {

@@ -6,7 +6,9 @@
 #include <array>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
+#include "elementary.h"
 #include "number_text.h"
 #include "place_text.h"
 #include "records/json_parts.h"
@@ -75,6 +77,47 @@ Json sampled_json(const DistanceOptions& options) {
 Json growth_json(const Growth& growth) {
   return {
       {"total", growth.total}, {"min", growth.faces.minCoeff()}, {"max", growth.faces.maxCoeff()}};
+}
+
+/// Of a turn: its angle.
+double degrees_of(const Eigen::Matrix3d& turn) {
+  const Vector3 axis(turn(2, 1) - turn(1, 2), turn(0, 2) - turn(2, 0), turn(1, 0) - turn(0, 1));
+  return 180 / std::numbers::pi * elementary::atan2(axis.norm(), turn.trace() - 1);
+}
+
+Json alignment_json(const Alignment& alignment) {
+  const Eigen::Matrix4d matrix = alignment.motion.matrix();
+  Json rows = Json::array();
+  for (int i = 0; i < 4; ++i)
+    rows.push_back({matrix(i, 0), matrix(i, 1), matrix(i, 2), matrix(i, 3)});
+  return {{"kind", alignment.scaled ? "similarity" : "rigid"},
+          {"matrix", rows},
+          {"scale", alignment.motion.scale},
+          {"degrees", degrees_of(alignment.motion.rotation)},
+          {"start", name_of(alignment.start)},
+          {"RMS", alignment.rms},
+          {"kept", alignment.kept},
+          {"reach", alignment.reach},
+          {"iterations", alignment.iterations}};
+}
+
+/// Empty where that was not asked for.
+std::string alignment_lines(const std::optional<Alignment>& alignment) {
+  if (!alignment) return "";
+  const Similarity& motion = alignment->motion;
+  const Eigen::Matrix4d matrix = motion.matrix();
+  std::string text =
+      "2 is put onto 1: turned by " + short_number(degrees_of(motion.rotation), 4) + "°" +
+      (alignment->scaled ? ", scaled by " + short_number(motion.scale, 6) : "") +
+      ", and moved; sought from " +
+      (alignment->start == AlignmentStart::AsTheyAre ? "where it was" : name_of(alignment->start)) +
+      "; RMS " + short_number(alignment->rms, 4) + " of the " + percent(alignment->kept) +
+      " of samples within " + short_number(alignment->reach, 4) + "; its matrix:\n";
+  for (int i = 0; i < 4; ++i) {
+    for (int k = 0; k < 4; ++k) text += (k > 0 ? " " : "  ") + shortest(matrix(i, k));
+    text += "\n";
+  }
+  return text + "\n";
 }
 
 std::string growth_line(const Growth& growth) {
@@ -158,6 +201,7 @@ std::string to_json(const DistanceRecord& record) {
                {"second", mesh_json(record.second, record.second_file, second)},
                {"sampled", sampled_json(record.options)},
                {"upright", record.upright},
+               {"alignment", record.alignment ? alignment_json(*record.alignment) : Json()},
                {"first_to_second", forth_json(distance, within)},
                {"second_to_first", side_json(distance.back, second, first, first, within)},
                {"two_sided",
@@ -184,7 +228,8 @@ std::string to_text(const DistanceRecord& record) {
   std::string text = "1: " + first + "\n2: " + second + "\n%: of the diagonal of 1, " +
                      short_number(distance.diagonal_first, 6) + "; " +
                      std::to_string(distance.forth.samples) + " and " +
-                     std::to_string(distance.back.samples) + " samples\n\n";
+                     std::to_string(distance.back.samples) + " samples\n\n" +
+                     alignment_lines(record.alignment);
   text +=
       "                       max                   mean                    RMS"
       "                    min\n";

@@ -17,12 +17,6 @@ constexpr double dark = 0.10, light = 0.95;  // of the colours of places
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
-TriangleMesh placed(TriangleMesh mesh, const Similarity& similarity) {
-  for (Eigen::Index v = 0; v < mesh.vertex_count(); ++v)
-    mesh.positions.row(v) = similarity(mesh.positions.row(v));
-  return mesh;
-}
-
 Points turned(const Points& normals, const Similarity& similarity) {
   return normals * similarity.rotation.transpose();
 }
@@ -92,8 +86,10 @@ MatchPictures::MatchPictures(const SurfaceMap& map, const std::vector<Vertex>& f
   first_colours_ = place_colours(carried.mesh.positions, box);
   second_colours_ = place_colours(box, box);
   first_ = map.from().mesh();
-  second_ = placed(map.to().mesh(), similarity);
-  carried_ = placed(std::move(carried.mesh), similarity);
+  second_ = map.to().mesh();
+  second_.positions = moved(std::move(second_.positions), similarity);
+  carried_ = std::move(carried.mesh);
+  carried_.positions = moved(std::move(carried_.positions), similarity);
   first_normals_ = shading_normals(map.from().file());
   second_normals_ = turned(shading_normals(map.to().file()), similarity);
   carried_normals_ = turned(carried.normals, similarity);

@@ -17,6 +17,8 @@
 #include "sphparam/io/paths.h"
 #include "sphparam/io/planetocentric.h"
 #include "sphparam/io/safe_file.h"
+#include "sphparam/io/up_axis.h"
+#include "sphparam/measure/alignment.h"
 #include "sphparam/measure/growth.h"
 #include "sphparam/measure/surface_distance.h"
 #include "sphparam/mesh/fillers.h"
@@ -29,17 +31,42 @@
 namespace sphparam::python {
 namespace {
 
+/// As the first of two files stands.
+void turn_as(const MeshFile& first, const MeshFile& second, TriangleMesh& second_mesh) {
+  second_mesh.positions *=
+      upright_rotation(upright_axes(second)).transpose() * upright_rotation(upright_axes(first));
+}
+
+py::object as_object(const std::optional<Alignment>& alignment) {
+  if (!alignment) return py::none();
+  const Eigen::Matrix4d matrix = alignment->motion.matrix();
+  py::array_t<double> rows({4, 4});
+  for (int i = 0; i < 4; ++i)
+    for (int k = 0; k < 4; ++k) rows.mutable_at(i, k) = matrix(i, k);
+  return py::make_tuple(rows, alignment->motion.scale, name_of(alignment->start), alignment->rms,
+                        alignment->kept, alignment->reach, alignment->iterations);
+}
+
+/// `align`: "none", "rigid" or "similarity".
 py::dict measure(const Source& first, const Source& second, std::int64_t samples,
                  std::uint64_t seed, const std::set<std::string>& over, bool extremes,
-                 bool deviations, const std::optional<double>& within, int threads,
-                 const py::object& progress) try {
-  using Mesh = std::shared_ptr<const TriangleMesh>;
+                 bool deviations, const std::optional<double>& within, bool upright,
+                 const std::string& align, int threads, const py::object& progress) try {
+  using Mesh = std::shared_ptr<TriangleMesh>;
   // What closes holes is no surface.
   const auto surface = [](const MeshFile& file) {
     return std::make_shared<TriangleMesh>(surface_of(file.mesh, fillers_of(file)));
   };
   const Mesh one = surface(first.mesh.file), other = surface(second.mesh.file);
-  const SurfaceDistance found = call(progress, [=](const Progress& report) {
+  if (upright) turn_as(first.mesh.file, second.mesh.file, *other);
+  std::optional<Alignment> alignment;
+  const SurfaceDistance found = call(progress, [=, &alignment](const Progress& report) {
+    if (align != "none") {
+      alignment = align_surfaces(
+          *one, *other,
+          {.scale = align == "similarity", .seed = seed, .threads = threads, .progress = report});
+      other->positions = moved(std::move(other->positions), alignment->motion);
+    }
     return measure_distance(*one, *other,
                             {.samples = samples,
                              .seed = seed,
@@ -52,7 +79,9 @@ py::dict measure(const Source& first, const Source& second, std::int64_t samples
                              .threads = threads,
                              .progress = report});
   });
-  return as_dict(found);
+  py::dict dict = as_dict(found);
+  dict["alignment"] = as_object(alignment);
+  return dict;
 } catch (const UnmeasurableSurface& error) {
   throw py::value_error((error.side() == Side::First ? "first: " : "second: ") +
                         std::string(error.what()));

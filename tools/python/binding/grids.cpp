@@ -5,6 +5,10 @@
 #include "arrays.h"
 #include "binding.h"
 #include "call.h"
+#include "number_text.h"
+#include "sphparam/io/fillers.h"
+#include "sphparam/mesh/fillers.h"
+#include "sphparam/mesh/vertex_areas.h"
 #include "sphparam/remesh/adaptation.h"
 #include "sphparam/remesh/displacement.h"
 #include "sphparam/remesh/faces_in_space.h"
@@ -71,23 +75,61 @@ bool is_of_grid(const std::string& word, const GridRequest& request, const char*
 struct RemeshRequest {
   RemeshOptions options;
   bool adaptive = false;
-  std::string texture = "mesh";  // whose coordinates: "mesh" or "grid"
+  std::optional<double> within = {};  // so far, on ico:L of a level that is sought
+  std::string texture = "mesh";       // whose coordinates: "mesh" or "grid"
 };
+
+VectorX as_vector(const py::array_t<double, py::array::forcecast>& values) {
+  VectorX result(values.size());
+  for (py::ssize_t i = 0; i < values.size(); ++i) result[i] = values.at(i);
+  return result;
+}
 
 RemeshRequest remesh_request_of(const py::dict& values) {
   RemeshRequest request;
   RemeshOptions& options = request.options;
+  py::array_t<double, py::array::forcecast> source_areas(0), grid_areas(0);
   Settings settings(values);
   settings
       .take("sample", options.sample,
             by_name({SampleMode::Point, SampleMode::Cell, SampleMode::Barycentric,
                      SampleMode::AdapBaryArea}))
       .take("transfer", options.transfer)
+      .take("source_areas", source_areas)
+      .take("grid_areas", grid_areas)
       .take("adaptive", request.adaptive)
+      .take("within", request.within)
       .take("uv", request.texture)
       .take("threads", options.threads);
   settings.require_all_known();
+  options.source_areas = as_vector(source_areas);
+  options.grid_areas = as_vector(grid_areas);
   return request;
+}
+
+void require_areas_of(const RemeshOptions& options, const MappedMesh& source,
+                      const SphereGrid& grid) {
+  const auto require = [](const VectorX& areas, Eigen::Index vertices, const std::string& of) {
+    if (areas.size() == 0 || areas.size() == vertices) return;
+    throw std::invalid_argument("areas: " + std::to_string(vertices) +
+                                " are needed, one a vertex of " + of + ", not " +
+                                std::to_string(areas.size()));
+  };
+  require(options.source_areas, source.mesh().vertex_count(), "the mesh");
+  require(options.grid_areas, grid.directions.rows(), "the grid");
+}
+
+/// The grid that is near enough; what there is to say where none is.
+std::string seek_grid(GridRequest& onto, const MappedMesh& source, double most,
+                      const RemeshOptions& options) {
+  const GridWithin found = coarsest_grid_within(
+      source, most,
+      {.sample = options.sample, .threads = options.threads, .progress = options.progress});
+  onto.name = name_of(found.grid);
+  if (found.holds()) return "";
+  return onto.name + ": at most " + short_number(found.max) +
+         " from the mesh, either way, more than " + short_number(most) +
+         ": no finer grid is looked at";
 }
 
 py::dict as_dict(const FacesInSpace& found) {
@@ -104,29 +146,39 @@ py::dict as_dict(const FacesInSpace& found) {
 
 /// What was made, how its faces lie in space, and what there is to say of that.
 struct Seen {
-  Remeshed made;
+  MappedMesh made;
   FacesInSpace found;
-  std::string warning;
+  std::vector<std::string> warnings;
 };
 
-Seen seen(Remeshed made, const MappedMesh& source, int threads, const Progress& report) {
+Seen seen(MappedMesh made, const MappedMesh& source, int threads, const Progress& report) {
   FacesInSpace found = faces_in_space(
       source, made, {.most_looks = usual_looks, .threads = threads, .progress = report});
-  std::string warning = warning_of(found, source, made);
-  return {std::move(made), std::move(found), std::move(warning)};
+  std::vector<std::string> warnings;
+  if (std::string warning = warning_of(found, source, made); !warning.empty())
+    warnings.push_back(std::move(warning));
+  return {std::move(made), std::move(found), std::move(warnings)};
 }
 
-/// The map, its figures in space and the warning, empty where all is well.
+/// The map, its figures in space and warnings.
+py::tuple as_tuple(const Seen& seen) {
+  return py::make_tuple(Mapped(seen.made), as_dict(seen.found), as_texts(seen.warnings));
+}
+
 py::tuple remesh_on(const Mapped& mapped, const py::object& grid, const py::dict& values,
                     const py::object& progress) {
-  const GridRequest onto = request_of(grid);
   const RemeshRequest wanted = remesh_request_of(values);
+  const GridRequest onto = wanted.within ? GridRequest{"ico:0"} : request_of(grid);
   const bool own_texture = is_of_grid(wanted.texture, onto, "uv");
   const Seen result = call(progress, [=, source = mapped.mesh()](const Progress& report) mutable {
     RemeshOptions options = wanted.options;
     options.progress = report;
     const int threads = options.threads;
-    SphereGrid made = grid_of(onto, threads);
+    GridRequest chosen = onto;
+    std::string too_far;
+    if (wanted.within) too_far = seek_grid(chosen, source, *wanted.within, options);
+    SphereGrid made = grid_of(chosen, threads);
+    require_areas_of(options, source, made);
     if (wanted.adaptive) {
       source = adapt_map(source, made.directions.rows(), {.threads = threads, .progress = report})
                    .mapped;
@@ -134,9 +186,11 @@ py::tuple remesh_on(const Mapped& mapped, const py::object& grid, const py::dict
     Remeshed found = remesh(source, std::move(made), options);
     if (own_texture)
       found = with_grid_texture(found, texture_layout(found.spec().value(), usual_texels), threads);
-    return seen(std::move(found), source, threads, report);
+    Seen result = seen(std::move(found), source, threads, report);
+    if (!too_far.empty()) result.warnings.insert(result.warnings.begin(), too_far);
+    return result;
   });
-  return py::make_tuple(Mapped(result.made), as_dict(result.found), as_text(result.warning));
+  return as_tuple(result);
 }
 
 Mapped surface_of_harmonics(const Expansion& expansion,
@@ -149,15 +203,25 @@ Mapped surface_of_harmonics(const Expansion& expansion,
               });
 }
 
-std::vector<Mapped> levels(const Mapped& mapped, int count, int threads,
-                           const py::object& progress) {
-  return call(progress, [=, source = mapped.mesh()](const Progress& report) {
-    std::vector<Mapped> made;
+/// Of each as of a remesh.
+py::list levels(const Mapped& mapped, int count, int threads, const py::object& progress) {
+  const auto made = call(progress, [=, source = mapped.mesh()](const Progress& report) {
+    std::vector<Seen> all;
     for (MappedMesh& mesh :
          quartered_meshes(source, count, {.threads = threads, .progress = report}))
-      made.emplace_back(std::move(mesh));
-    return made;
+      all.push_back(seen(std::move(mesh), source, threads, report));
+    return all;
   });
+  py::list list;
+  for (const Seen& level : made) list.append(as_tuple(level));
+  return list;
+}
+
+/// Of every vertex, without what closes holes.
+py::array areas_of(const Source& source) {
+  const MeshFile& file = source.mesh.file;
+  const VectorX areas = vertex_areas(surface_of(file.mesh, fillers_of(file)));
+  return owning(std::vector<double>(areas.begin(), areas.end()));
 }
 
 std::unique_ptr<Fitted> fit(const Mapped& mapped, const py::object& grid, const std::string& scheme,
@@ -283,6 +347,7 @@ void declare_grids(py::module_& module) {
   module.def("remesh", remesh_on);
   module.def("harmonic_surface", surface_of_harmonics);
   module.def("levels", levels);
+  module.def("vertex_areas", areas_of);
   module.def("fit", fit);
   module.def("displace", displace);
   module.def("textured_control", textured_control);

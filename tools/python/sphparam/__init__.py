@@ -39,6 +39,7 @@ from ._errors import (
 )
 from ._figures import (
     Action,
+    Alignment,
     BakedFile,
     Body,
     Certificate,
@@ -77,6 +78,7 @@ __version__: str = _core.version
 
 __all__ = [
     "Action",
+    "Alignment",
     "Asset",
     "BakedFile",
     "BakedImage",

@@ -254,6 +254,25 @@ class OneSided(NamedTuple):
     """The same distances with their side, with ``signed`` and from the first to the second; else None."""
 
 
+class Alignment(NamedTuple):
+    """How the second surface was put onto the first."""
+
+    matrix: Floats
+    """(4, 4): takes (x, y, z, 1), a column, of the second, after ``upright``, there; ``vertices @ matrix[:3, :3].T + matrix[:3, 3]``."""
+    scale: float
+    """1 where none was sought."""
+    start: str
+    """From where it came there: ``"as they are"``, ``"centroids"`` or ``"principal axes"``."""
+    rms: float
+    """Of the distances of the samples that are kept."""
+    kept: float
+    """The share of the samples of both that are no farther than ``reach``; others are what one surface lacks."""
+    reach: float
+    """In units of the first."""
+    iterations: int
+    """How many steps it took from there."""
+
+
 class Distance(NamedTuple):
     """How far two surfaces are apart, both ways, in units of the mesh."""
 
@@ -273,6 +292,8 @@ class Distance(NamedTuple):
     """From the first to the second."""
     back: OneSided
     """From the second to the first."""
+    alignment: Optional[Alignment] = None
+    """How the second was put onto the first before, with ``align``; else None."""
 
 
 def one_sided(found: Dict[str, Any]) -> OneSided:

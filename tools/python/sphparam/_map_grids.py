@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Iterable, List, Optional, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Any, Dict, Iterable, List, Optional, Sequence, Tuple, Union
 
 from . import _arrays, _core
 from ._errors import as_typed_here
 from ._figures import InSpace
 from ._losses import tell
 from ._map_facts import MapFacts, mapped_of
-from ._mesh import centre_of
+from ._mesh import any_mesh, centre_of
 from ._progress import Progress, told
 
 if TYPE_CHECKING:
@@ -20,6 +20,45 @@ if TYPE_CHECKING:
 
 
 _most_levels = 64  # with a quarter each there are none behind these
+
+
+def _remeshed(made: _core.Mapped, figures: Dict[str, Any], messages: List[str]) -> SphereMap:
+    """What the library tells of a new mesh is told of it."""
+    from ._sphere_map import SphereMap
+
+    remeshed = SphereMap._of(made)
+    remeshed._found["in_space"] = InSpace(**figures)
+    if messages:
+        remeshed._found["warnings"] = [as_typed_here(message) for message in messages]
+        tell(messages)
+    return remeshed
+
+
+def _areas(pair: Any) -> List[Any]:
+    """Of vertices, as arrays."""
+    both = _arrays.listed(pair, "areas", "two arrays or surfaces")
+    if len(both) != 2:
+        raise ValueError(f"areas: two are needed, of the mesh and of the grid, not {len(both)}")
+    return [_areas_of(areas) for areas in both]
+
+
+def _areas_of(areas: Any) -> Any:
+    if isinstance(areas, list) or getattr(areas, "ndim", 0) == 1:
+        return _arrays.numbers(areas, "areas")
+    mesh = any_mesh(areas, None)
+    mesh._require_sound()
+    return _core.vertex_areas(mesh._source)
+
+
+def _within(length: float, grid: Any, is_settled: bool) -> float:
+    if grid != "ico":
+        raise ValueError(f"within finds the level of grid='ico', and is not for {grid!r}")
+    if is_settled:
+        raise ValueError("within is not for areas, adaptive and uv='grid': find the level first")
+    most = _arrays.real(length, "within")
+    if not most >= 0:
+        raise ValueError(f"within: a length, at least 0, not {length!r}")
+    return most
 
 
 class MapGrids(MapFacts):
@@ -33,7 +72,9 @@ class MapGrids(MapFacts):
         *,
         sample: str = "point",
         transfer: Union[str, Iterable[str]] = "all",
+        areas: Optional[Tuple[Any, Any]] = None,
         adaptive: bool = False,
+        within: Optional[float] = None,
         uv: str = "mesh",
         threads: int = 0,
         progress: Progress = None,
@@ -47,21 +88,25 @@ class MapGrids(MapFacts):
         ----------
         grid
             ``"ico:6"``, ``"ico:f=40"``, ``"octa:257"``, ``"cube:32"``, ``"uv:512x256"``,
-            ``"healpix:64"``; or another map, whose connectivity the result gets.
+            ``"healpix:64"``; or another map, whose connectivity the result gets; ``"ico"`` with ``within``.
         sample
             ``"point"``: the surface at the direction; ``"cell"``: its mean over the
             triangles of the grid about a vertex, a tent, by area. What vertices
             have as Workbench resamples it: ``"barycentric"``, ``"adap-bary-area"``.
         transfer
             What to carry: ``"all"``, or names of values; ``[]``: positions alone.
+        areas
+            With ``sample="adap-bary-area"``: of this mesh's vertices and of the grid's, each an array or a surface,
+            whose areas are meant; else those of this mesh, and of what becomes of it.
         adaptive
             More vertices where the surface bends.
+        within
+            A length: of ``"ico:0"`` to ``"ico:9"`` the coarsest whose faces are nowhere farther than this from the
+            surface, nor it from them; a warning where none is.
         uv
             Texture coordinates of the result: ``"mesh"``, what the surface has; ``"grid"``, the grid's own
             layout, six squares for a cube and so on.
         """
-        from ._sphere_map import SphereMap
-
         options = {
             "transfer": self._transferred(transfer),
             "sample": _arrays.text(sample, "sample"),
@@ -69,23 +114,25 @@ class MapGrids(MapFacts):
             "adaptive": _arrays.flag(adaptive, "adaptive"),
             "threads": _arrays.threads(threads),
         }
+        if areas is not None:
+            if sample != "adap-bary-area":
+                raise ValueError('areas: for sample="adap-bary-area" alone')
+            options["source_areas"], options["grid_areas"] = _areas(areas)
+        if within is not None:
+            options["within"] = _within(within, grid, areas is not None or adaptive or uv != "mesh")
+        onto = "" if within is not None else grid_of(grid)
         with told(progress) as report:
-            made, figures, warning = _core.remesh(self._mapped, grid_of(grid), options, report)
-        remeshed = SphereMap._of(made)
-        remeshed._found["in_space"] = InSpace(**figures)
-        if warning:
-            remeshed._found["warnings"] = [as_typed_here(warning)]
-            tell([warning])
-        return remeshed
+            return _remeshed(*_core.remesh(self._mapped, onto, options, report))
 
     def levels(self, count: int, *, threads: int = 0, progress: Progress = None) -> List[SphereMap]:
-        """Levels of detail on icosahedra, the first with a quarter of the vertices, and so on; fewer at 12."""
-        from ._sphere_map import SphereMap
+        """Levels of detail on icosahedra, the first with a quarter of the vertices, and so on; fewer at 12.
 
+        Their faces in space are counted and warned of as those of :meth:`remesh`: :attr:`in_space`.
+        """
         wanted = min(_arrays.whole(count, "count", 0), _most_levels)
         with told(progress) as report:
             made = _core.levels(self._mapped, wanted, _arrays.threads(threads), report)
-        return [SphereMap._of(level) for level in made]
+        return [_remeshed(*level) for level in made]
 
     def fit(
         self,

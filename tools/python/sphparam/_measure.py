@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Iterable, Optional, Tuple, Union
 
 from . import _arrays, _core
-from ._figures import Distance, one_sided
+from ._figures import Alignment, Distance, one_sided
 from ._mesh import any_mesh
 from ._progress import Progress, told
 
@@ -35,6 +35,8 @@ def measure(
     extremes: bool = True,
     signed: bool = False,
     within: Optional[float] = None,
+    upright: bool = False,
+    align: str = "none",
     threads: int = 0,
     progress: Progress = None,
 ) -> Distance:
@@ -55,6 +57,12 @@ def measure(
         ``forth.deviation``. The second must be closed (else ValueError), the first need not.
     within
         Also which share of the samples is no farther than this, ``forth.within`` and ``back.within``.
+    upright
+        The second is first turned as the first stands, by what their files say is up and in front: y and z in glTF;
+        z and -y where nothing says.
+    align
+        ``"rigid"``: the second is first put onto the first, turned and moved until samples of both are as near as
+        they come; what one of them lacks is left out. ``"similarity"``: also scaled. ``.alignment`` says how.
 
     ``forth.at_vertices`` has the distance of every vertex of the first from the second, ``back.at_vertices`` the
     other way.
@@ -63,13 +71,16 @@ def measure(
     words = {_arrays.text(word, "over") for word in ([over] if isinstance(over, str) else _arrays.listed(over, "over", "texts"))}
     if not words or words - {"faces", "edges", "vertices"}:
         raise ValueError(f"over: 'faces', 'edges', 'vertices' or several of these, not {over!r}")
+    if _arrays.text(align, "align") not in ("none", "rigid", "similarity"):
+        raise ValueError(f"align: 'none', 'rigid' or 'similarity', not {align!r}")
     meshes = [any_mesh(mesh, None) for mesh in (first, second)]
     for mesh in meshes:
         mesh._require_sound()
     with told(progress) as report:
         found = _core.measure(
             meshes[0]._source, meshes[1]._source, samples, seed, words, _arrays.flag(extremes, "extremes"), _arrays.flag(signed, "signed"),
-            None if within is None else _arrays.real(within, "within"), _arrays.threads(threads), report,  # fmt: skip
+            None if within is None else _arrays.real(within, "within"), _arrays.flag(upright, "upright"), align, _arrays.threads(threads), report,  # fmt: skip
         )
     found["forth"], found["back"] = one_sided(found["forth"]), one_sided(found["back"])
-    return Distance(**found)
+    moved = found.pop("alignment")
+    return Distance(**found, alignment=None if moved is None else Alignment(*moved))

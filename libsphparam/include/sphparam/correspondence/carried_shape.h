@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sphparam/correspondence/surface_map.h"
+#include "sphparam/mesh/similarity.h"
 #include "sphparam/progress.h"
 
 namespace sphparam {
@@ -13,15 +14,6 @@ struct CarriedShape {
 
 /// Cost: that of `SurfaceMap::forth`.
 CarriedShape carried_shape(const SurfaceMap& map, int threads = 0);
-
-/// x ↦ scale · rotation · x + shift.
-struct Similarity {
-  double scale = 1;
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  Vector3 shift = Vector3::Zero();
-
-  Vector3 operator()(const Vector3& x) const { return scale * (rotation * x) + shift; }
-};
 
 /// How another surface is put to where one is, so that both can be seen in one picture.
 enum class Placement {

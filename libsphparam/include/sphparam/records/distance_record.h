@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sphparam/io/mesh_file.h"
+#include "sphparam/measure/alignment.h"
 #include "sphparam/measure/growth.h"
 #include "sphparam/measure/surface_distance.h"
 
@@ -27,6 +28,7 @@ struct DistanceRecord {
   const DistanceOptions& options;
   const SurfaceDistance& distance;
   bool upright = false;  // the second was turned as the first stands, by what their files say
+  std::optional<Alignment> alignment = {};  // of the second, where that was asked for
   std::optional<Growth> growth = {};  // from the first to the second, where that was asked for
   std::vector<DistanceLimit> limits = {};
   std::vector<std::pair<std::string, std::string>> outputs = {};  // what it is, where it is
@@ -37,9 +39,10 @@ struct DistanceRecord {
 
 /// As `sphparam measure --json` tells it. Keys of each direction as MeshLab has them: RMS, max,
 /// mean, min, n_samples, diag_mesh_0 (of the mesh sampled) and diag_mesh_1; median, P95, P99 and SD
-/// beside them; HD95, the larger P95, of both. `signed` of the first
-/// to the second where the side was asked for; `growth`, of areas and of the least and the greatest
-/// of a triangle, where that was.
+/// beside them; HD95, the larger P95, of both. `alignment`, with the matrix that brings (x, y, z,
+/// 1) of the second there, where the second was put onto the first, else null. `signed` of
+/// the first to the second where the side was asked for; `growth`, of areas and of the least and
+/// the greatest of a triangle, where that was.
 std::string to_json(const DistanceRecord& record);
 
 /// A table for people.
