@@ -9,6 +9,7 @@ import shutil
 import struct
 
 import other_formats
+import print_formats
 import scene_formats
 import science_formats
 import shape_models
@@ -497,6 +498,7 @@ def main():
     make_foreign()
     make_gzip()
     other_formats.make_all()
+    print_formats.make_all()
     science_formats.make_all()
     scene_formats.make_all()
     shape_models.make_all()

@@ -33,7 +33,8 @@ TEST_CASE("mesh_reader: other formats are refused by name") {
   refused("MZ\x03", "a.mz3", "the file ends within its header");
   refused("MZ\x03", "a.exe", "not recognised");
   refused("\x1f\x8b\x08", "a.mz3", "gzip data is cut short");
-  refused("PK\x03\x04", "part.3mf", "this is 3MF, which");
+  refused("PK\x03\x04", "part.3mf", "a ZIP archive (unpack it first)");
+  refused("PK\x03\x04", "part.usdz", "this is USDZ, which");
   refused("<?xml version", "part.AMF", "this is AMF, which");
   refused("PK\x03\x04", "parts.zip", "a ZIP archive (unpack it first)");
   refused("<?xml version", "a.xml", "XML other than GIFTI and VTP");

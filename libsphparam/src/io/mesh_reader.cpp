@@ -48,8 +48,7 @@ constexpr ForeignFormat foreign_extensions[] = {
 };
 
 // Of those in ZIP or XML, which is all that their first bytes say.
-constexpr ForeignFormat foreign_wrapped[] = {
-    {".3mf", "3MF"}, {".amf", "AMF"}, {".usdz", "USDZ"}, {".x3d", "X3D"}};
+constexpr ForeignFormat foreign_wrapped[] = {{".amf", "AMF"}, {".usdz", "USDZ"}, {".x3d", "X3D"}};
 
 std::string supported() { return readable_formats("and") + " files are"; }
 

@@ -13,18 +13,30 @@
 namespace sphparam {
 namespace {
 
+/// What is about deflated data, as zlib counts it.
+enum class Wrapper : int { Gzip = 15 + 16, None = -15 };
+
 class Inflater {
  public:
-  Inflater(std::string_view bytes, const std::string& name, std::uint64_t max_bytes)
-      : packed_(bytes), name_(name), max_bytes_(max_bytes) {
-    constexpr int gzip = 15 + 16;
-    if (inflateInit2(&stream_, gzip) != Z_OK) throw std::bad_alloc();
+  Inflater(std::string_view bytes, const std::string& name, std::uint64_t max_bytes,
+           Wrapper wrapper)
+      : packed_(bytes),
+        name_(name),
+        max_bytes_(max_bytes),
+        kind_(wrapper == Wrapper::Gzip ? "gzip" : "ZIP") {
+    if (inflateInit2(&stream_, static_cast<int>(wrapper)) != Z_OK) throw std::bad_alloc();
   }
   ~Inflater() { inflateEnd(&stream_); }
   Inflater(const Inflater&) = delete;
   Inflater& operator=(const Inflater&) = delete;
 
-  Unzipped run() {
+  std::string block() {
+    unpack_member();
+    bytes_.resize(filled_);
+    return std::move(bytes_);
+  }
+
+  Unzipped members() {
     do {
       inflateReset(&stream_);
       unpack_member();
@@ -43,7 +55,7 @@ class Inflater {
       if (status == Z_MEM_ERROR) throw std::bad_alloc();
       if (status == Z_OK || status == Z_STREAM_END) continue;
       const bool cut = status == Z_BUF_ERROR && packed_.empty();
-      throw ReadError(name_, cut ? "its gzip data is cut short" : "its gzip data is corrupt");
+      throw ReadError(name_, "its " + kind_ + (cut ? " data is cut short" : " data is corrupt"));
     }
   }
 
@@ -78,6 +90,7 @@ class Inflater {
   std::string_view packed_;  // what is left of it
   const std::string& name_;
   std::uint64_t max_bytes_;
+  std::string kind_;
   z_stream stream_{};
   std::string bytes_;
   std::size_t filled_ = 0;
@@ -94,7 +107,11 @@ struct Deflation {
 bool looks_like_gzip(std::string_view bytes) { return bytes.starts_with("\x1f\x8b"); }
 
 Unzipped unzip(std::string_view bytes, const std::string& name, std::uint64_t max_bytes) {
-  return Inflater(bytes, name, max_bytes).run();
+  return Inflater(bytes, name, max_bytes, Wrapper::Gzip).members();
+}
+
+std::string inflated(std::string_view packed, const std::string& name, std::uint64_t max_bytes) {
+  return Inflater(packed, name, max_bytes, Wrapper::None).block();
 }
 
 std::string beginning_of_gzip(std::string_view packed, std::size_t most) {

@@ -24,6 +24,10 @@ Unzipped unzip(std::string_view bytes, const std::string& name, std::uint64_t ma
 /// damaged. Requires: `most` is below 2³². Cost: that of what comes out, whatever the file's size.
 std::string beginning_of_gzip(std::string_view bytes, std::size_t most);
 
+/// Unpacks what deflate made (RFC 1951), without a header, as it stands in ZIP archives. As `unzip`,
+/// but nothing checks what comes out. Data behind its end is left.
+std::string inflated(std::string_view packed, const std::string& name, std::uint64_t max_bytes);
+
 /// A gzip file of one member, without name and time: the same bytes give the same file.
 std::string zip(std::string_view bytes);
 

@@ -25,6 +25,7 @@
 #include "io/formats/shapes/icq_reader.h"
 #include "io/formats/shapes/plate_reader.h"
 #include "io/formats/stl_reader.h"
+#include "io/formats/three_mf/three_mf_reader.h"
 #include "io/formats/vtk/legacy_vtk_reader.h"
 #include "io/formats/vtk/legacy_vtk_writer.h"
 #include "io/formats/vtk/xml_vtk_reader.h"
@@ -162,6 +163,14 @@ constexpr MeshFormat formats[] = {
      Evidence::Layout,
      looks_like_stl,
      read<read_stl>,
+     nullptr,
+     without_map,
+     spheres_in_doubles},
+    {"3MF",
+     {".3mf"},
+     magic,
+     looks_like_three_mf,
+     read<read_three_mf>,
      nullptr,
      without_map,
      spheres_in_doubles},
