@@ -7,7 +7,6 @@
 
 #include "batch/content_hash.h"
 #include "batch/distribution.h"
-#include "batch/png.h"
 #include "batch/record.h"
 #include "batch/staging.h"
 
@@ -151,13 +150,6 @@ TEST_CASE("distribution: quartiles, and what is far out of them") {
   CHECK_THAT(distribution_plot(d, "title", names),
              Contains("href=\"#far&lt;out\"") && Contains("1 outlier beyond"));
   CHECK_THAT(distribution_plot(distribution_of({}), "title", {}), Contains("no values"));
-}
-
-TEST_CASE("png: signature, size, and chunks with their sums") {
-  const std::string png = png_bytes(std::string(3 * 5 * 2, '\x40'), 5, 2);
-  CHECK(png.substr(0, 16) == std::string("\x89PNG\r\n\x1A\n\0\0\0\x0DIHDR", 16));
-  CHECK(png.substr(16, 8) == std::string("\0\0\0\5\0\0\0\2", 8));
-  CHECK(png.substr(png.size() - 12) == std::string("\0\0\0\0IEND\xAE\x42\x60\x82", 12));
 }
 
 }  // namespace sphparam::tests

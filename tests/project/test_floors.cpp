@@ -200,7 +200,7 @@ TEST_CASE("floors: third-party headers stay in their rooms") {
       {"expat", {"libsphparam/src/io/formats/xml_events"}},
       {"zlib",
        {"libsphparam/src/io/formats/gifti/gifti_data", "libsphparam/src/io/files/gzip",
-        "libsphparam/src/batch/png"}},
+        "libsphparam/src/io/files/zip_archive", "libsphparam/src/io/files/png"}},
       {"boost/", {"libsphparam/src/exact_integers.h"}},
       {"embree3/", {"libsphparam/src/rays/ray_scene"}},
       {"opensubdiv/", {"libsphparam/src/remesh/"}},

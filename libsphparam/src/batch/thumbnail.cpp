@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "batch/png.h"
+#include "io/files/png.h"
 #include "render/heat.h"
 #include "sphparam/io/up_axis.h"
 

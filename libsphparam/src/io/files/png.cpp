@@ -1,7 +1,8 @@
 // ISO/IEC 15948: a signature and three chunks, each with its length, name and CRC; rows begin with
-// the number of their filter, here 1: each byte is the difference to that of the pixel before.
+// the number of their filter, here 2: each byte is the difference to that of the row before, which
+// is mostly nothing in pictures of triangles and of squares.
 
-#include "batch/png.h"
+#include "io/files/png.h"
 
 #include <zlib.h>
 
@@ -40,14 +41,14 @@ std::string deflated(const std::string& bytes) {
 }  // namespace
 
 std::string png_bytes(std::string_view pixels, int width, int height) {
-  constexpr char sub = 1;  // the filter
+  constexpr char up = 2;  // the filter
   const std::size_t row = 3 * static_cast<std::size_t>(width);
   std::string filtered;
   filtered.reserve((row + 1) * static_cast<std::size_t>(height));
   for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y) {
-    filtered += sub;
+    filtered += up;
     for (std::size_t x = 0; x < row; ++x) {
-      const int before = x < 3 ? 0 : pixels[y * row + x - 3];
+      const int before = y == 0 ? 0 : pixels[(y - 1) * row + x];
       filtered += static_cast<char>(pixels[y * row + x] - before);
     }
   }
