@@ -305,6 +305,15 @@ TEST_CASE("rebuild: an image is read between the middles of texels, around and o
   CHECK(near_pole == Approx((1 + 3) / 2.0));
 }
 
+TEST_CASE("rebuild: beyond a pole an image of an odd width is half a turn away too") {
+  Image image(3, 1, 1);
+  image.pixels = {1, 2, 4};
+  // Above the middle of the first texel; the middle between the others is opposite.
+  CHECK(displacement_in(image, to_cartesian({std::numbers::pi / 3, 1e-9})) == Approx(2));
+  CHECK(displacement_in(image, to_cartesian({std::numbers::pi / 3, std::numbers::pi - 1e-9})) ==
+        Approx(2));
+}
+
 TEST_CASE("displacement file: what is read back is what was written, as near as the depth can") {
   const Landscape land("ico:1", Scheme::Loop, 8, bumps);
   const Displacement made = land.displacement(32);
@@ -335,6 +344,12 @@ TEST_CASE("displacement file: no displacement is told from one, and too large on
   const std::vector<char> plain =
       encode_image(Image(2, 1, 1), ImageFormat::Exr, {.sample_type = SampleType::Float});
   CHECK_THROWS_AS(decode_displacement({plain.data(), plain.size()}, "d"), ImageError);
+  const std::vector<char> coloured =
+      encode_image(Image(2, 1, 3), ImageFormat::Exr,
+                   {.sample_type = SampleType::Float,
+                    .metadata = {{"sphparam:scale", "1"}, {"sphparam:midlevel", "0"}}});
+  CHECK_THROWS_WITH(decode_displacement({coloured.data(), coloured.size()}, "d"),
+                    "d: no displacement: it has several channels");
   Displacement huge{.image = Image(2, 1, 1), .figures = {.least = 0, .greatest = 1e6}};
   CHECK_THROWS_AS(encode_displacement(huge, ImageDepth::Half, "ico:1", "loop"), std::range_error);
   for (const double size : {1e40, 1e-40}) {  // beyond the floats that the image holds
@@ -367,6 +382,13 @@ TEST_CASE("displacement: sizes, names and layouts that do not fit are refused be
   refused({.image = "d.exr"}, {.width = 0});
   refused({.image = "d.exr"}, {.height = -1});
   refused({.image = "d.exr"}, {.width = 1 << 20, .height = 1 << 20});
+  const int too_many = (1 << 28) + 1;
+  CHECK_THROWS_WITH(add_displacement(files, {.image = "d.exr"}, source, control, fit,
+                                     {.width = too_many, .height = 1}),
+                    Catch::StartsWith("width is 268435457"));
+  CHECK_THROWS_WITH(add_displacement(files, {.image = "d.exr"}, source, control, fit,
+                                     {.width = 1, .height = too_many}),
+                    Catch::StartsWith("height is 268435457"));
   const Remeshed centres = remesh(source, parse_grid("healpix:2"));
   const SubdivisionFit on_centres =
       fit_subdivision(source, centres.grid(), {.scheme = Scheme::CatmullClark});

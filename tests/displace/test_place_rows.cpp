@@ -57,6 +57,45 @@ TEST_CASE("place rows: what is found below a row is what a search anew finds, ne
   }
 }
 
+TEST_CASE(
+    "place rows: where patches are no polynomials each place is found to the last digits too") {
+  for (const LimitSubject& subject : base_subjects) {
+    const SphereGrid grid = subject.grid();
+    const DirectedBase base(grid, 2 * grid.directions, subject.scheme);
+    double worst = 0;
+    for (const double step : {0.01, 0.05, 0.1, 0.15}) {
+      PlaceFinder finder(base);
+      PlaceRows rows(finder);
+      for (double phi = 0.005; phi < std::numbers::pi; phi += step) {
+        const Points directions = row_at(phi);
+        rows.find_next(directions);
+        for (int c = 0; c < width; ++c) {
+          const LimitPlace& place = rows.places()[static_cast<size_t>(c)];
+          const Vector3 found = base.directions().evaluate(place).position.normalized();
+          worst = std::max(worst, (found.transpose() - directions.row(c)).norm());
+        }
+      }
+    }
+    INFO(subject.name);
+    CHECK(worst < 1e-7);
+  }
+}
+
+TEST_CASE("place rows: of a finder that was asked before the first row is the same to the bit") {
+  for (const LimitSubject& subject : base_subjects) {
+    INFO(subject.name);
+    const SphereGrid grid = subject.grid();
+    const DirectedBase base(grid, grid.directions, subject.scheme);
+    PlaceFinder fresh(base), asked(base);
+    const Points directions = row_at(1.1);
+    asked.find((directions.row(0) + directions.row(1)).normalized());
+    PlaceRows of_fresh(fresh), of_asked(asked);
+    of_fresh.find_next(directions);
+    of_asked.find_next(directions);
+    for (size_t c = 0; c < width; ++c) CHECK(same(of_fresh.places()[c], of_asked.places()[c]));
+  }
+}
+
 TEST_CASE("place rows: where directions fold over, the flat grid's place is told") {
   const SphereGrid crumpled = crumpled_grid();
   const DirectedBase odd(crumpled, crumpled.directions, Scheme::Loop);

@@ -80,7 +80,8 @@ TEST_CASE("written displacement: in the layout of a grid, vertices meet middles 
                              Expected{"cube:3", Scheme::CatmullClark, 128, 64, 8, 54, 8},
                              Expected{"cube:3", Scheme::CatmullClark, 18, 18, 1, 54, 3},
                              Expected{"uv:8x5", Scheme::CatmullClark, 64, 32, 4, 144, 2},
-                             Expected{"ico:1", Scheme::CatmullClark, 512, 128, 32, 240, 8}}) {
+                             Expected{"ico:1", Scheme::CatmullClark, 512, 128, 32, 240, 8},
+                             Expected{"ico:0", Scheme::CatmullClark, 4, 4, 1, 60, 3}}) {
     INFO(is.grid << ", " << is.steps << " steps");
     const int vertices = is.quads * is.cuts * is.cuts + 2;
     const Written written(

@@ -16,14 +16,19 @@ namespace {
 
 constexpr std::int64_t grain = 4096;
 
-/// A texel, also beyond the poles and around.
-double texel(const Image& image, std::int64_t column, std::int64_t row) {
+/// Between the middles of two texels of a row, also beyond the poles, where that is half a turn
+/// away, and around.
+double row_at(const Image& image, double x, std::int64_t row) {
   if (row < 0 || row >= image.height) {
     row = row < 0 ? -1 - row : 2 * std::int64_t{image.height} - 1 - row;
-    column += image.width / 2;
+    x += image.width / 2.0;
   }
-  column = (column % image.width + image.width) % image.width;
-  return static_cast<double>(*image.pixel(static_cast<int>(column), static_cast<int>(row)));
+  const double left = std::floor(x), right_share = x - left;
+  const auto texel = [&](double column) {
+    const double around = column - image.width * std::floor(column / image.width);
+    return static_cast<double>(*image.pixel(static_cast<int>(around), static_cast<int>(row)));
+  };
+  return (1 - right_share) * texel(left) + right_share * texel(left + 1);
 }
 
 }  // namespace
@@ -46,13 +51,9 @@ double displacement_in(const Image& image, const Vector3& direction) {
   const SphericalCoordinates at = to_spherical(direction);
   const double x = at.theta / (2 * std::numbers::pi) * image.width - 0.5,
                y = at.phi / std::numbers::pi * image.height - 0.5;
-  const double left = std::floor(x), top = std::floor(y), right_share = x - left,
-               lower_share = y - top;
-  const auto column = static_cast<std::int64_t>(left), row = static_cast<std::int64_t>(top);
-  const auto mean = [&](std::int64_t r) {
-    return (1 - right_share) * texel(image, column, r) + right_share * texel(image, column + 1, r);
-  };
-  return (1 - lower_share) * mean(row) + lower_share * mean(row + 1);
+  const double top = std::floor(y), lower_share = y - top;
+  const auto row = static_cast<std::int64_t>(top);
+  return (1 - lower_share) * row_at(image, x, row) + lower_share * row_at(image, x, row + 1);
 }
 
 double displacement_at(const Image& image, const TextureLattice& lattice, const TexelPoint& point) {
