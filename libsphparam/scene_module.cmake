@@ -1,4 +1,4 @@
-# FBX and COLLADA, by assimp, in a module that is opened when such a file is read; without assimp there is
+# FBX, COLLADA, 3DS and X3D, by assimp, in a module that is opened when such a file is read; without assimp there is
 # none, and such files are refused with what would help.
 find_package(assimp QUIET)
 if(assimp_FOUND)

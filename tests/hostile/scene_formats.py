@@ -199,6 +199,47 @@ def make_fbx():
     bad("ones", b[:27] + b"\xff" * 2000, "")
 
 
+def chunk(kind, data):
+    return struct.pack("<HI", kind, len(data) + 6) + data
+
+
+def three_ds(points=P4, faces=F4):
+    vertices = struct.pack("<H", len(points)) + b"".join(struct.pack("<fff", *p) for p in points)
+    corners = struct.pack("<H", len(faces)) + b"".join(struct.pack("<HHHH", *f, 7) for f in faces)
+    mesh = chunk(0x4100, chunk(0x4110, vertices) + chunk(0x4120, corners))
+    return chunk(0x4D4D, chunk(2, struct.pack("<I", 3)) + chunk(0x3D3D, chunk(0x4000, b"t\0" + mesh)))
+
+
+def make_three_ds():
+    t = three_ds()
+    bad = lambda name, data, message: case("three_ds_%s.3ds" % name, data, UNREADABLE, message)
+    case("three_ds_ok_plain.3ds", t, OK)
+    case("three_ds_ok_by_content.bin", t, OK)
+    case("three_ds_open.3ds", three_ds(faces=F4[:3]), NO_SPHERE, "not closed")
+    bad("words", "hello", "")
+    for part in (8, 40, len(t) - 30):
+        bad("cut_%d" % part, t[:part], "")
+    case("three_ds_ok_vertex_beyond.3ds", three_ds(faces=F4[:3] + [(1, 2, 9)]), OK)  # as assimp mends it, and warns
+    bad("nan", three_ds(points=P4[:3] + [(float("nan"), 0, 0)]), "")
+    bad("no_meshes", chunk(0x4D4D, chunk(2, struct.pack("<I", 3)) + chunk(0x3D3D, b"")), "")
+
+
+def make_x3d():
+    t = ("<?xml version='1.0'?><X3D version='3.0'><Scene><Shape><IndexedFaceSet coordIndex='%s'><Coordinate point='%s'/>"
+         "</IndexedFaceSet></Shape></Scene></X3D>" % (" ".join("%d %d %d -1" % f for f in F4),
+                                                      " ".join("%d %d %d" % p for p in P4)))
+    bad = lambda name, data, message: case("x3d_%s.x3d" % name, data, UNREADABLE, message)
+    case("x3d_ok_plain.x3d", t, OK)
+    bad("root_alone", "<X3D/>", "")
+    bad("cut", t[:150], "")
+    bad("bad_tags", t.replace("</Shape>", "</Shap>"), "")
+    bad("no_points", changed(t, "<Coordinate", "<Coordinates"), "")
+    bad("external_entity", "<!DOCTYPE a [<!ENTITY x SYSTEM 'file:///etc/passwd'>]>" +
+        changed(t, "point='1", "point='&x; 1")[21:], "")
+
+
 def make_all():
     make_collada()
     make_fbx()
+    make_three_ds()
+    make_x3d()

@@ -43,12 +43,12 @@ constexpr ForeignFormat foreign_magic[] = {
 };
 
 constexpr ForeignFormat foreign_extensions[] = {
-    {".fbx", "FBX"}, {".dae", "COLLADA"}, {".3ds", "3DS"},   {".vtu", "VTK other than polydata"},
+    {".fbx", "FBX"}, {".dae", "COLLADA"}, {".vtu", "VTK other than polydata"},
     {".msh", "MSH"}, {".stp", "STEP"},    {".step", "STEP"},
 };
 
 // Of those in ZIP or XML, which is all that their first bytes say.
-constexpr ForeignFormat foreign_wrapped[] = {{".amf", "AMF"}, {".usdz", "USDZ"}, {".x3d", "X3D"}};
+constexpr ForeignFormat foreign_wrapped[] = {{".amf", "AMF"}, {".usdz", "USDZ"}};
 
 std::string supported() { return readable_formats("and") + " files are"; }
 

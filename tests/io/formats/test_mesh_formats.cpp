@@ -84,7 +84,8 @@ TEST_CASE("mesh_formats: without an extension, and on standard output, a mesh is
 
 TEST_CASE("mesh_formats: people are told all that are read") {
   CHECK(readable_formats() ==
-        "OBJ, PLY, OFF, STL, 3MF, glTF, GLB, FBX, COLLADA, VTK, VTP, GIFTI, FreeSurfer, MZ3, ICQ and "
+        "OBJ, PLY, OFF, STL, 3MF, glTF, GLB, FBX, COLLADA, 3DS, X3D, VTK, VTP, GIFTI, FreeSurfer, "
+        "MZ3, ICQ and "
         "PDS plate table");
   CHECK(readable_formats("or").ends_with("ICQ or PDS plate table"));
 }

@@ -36,7 +36,10 @@ std::string collada(const std::string& triangles = "0 2 1 0 1 3 1 2 3 0 3 2") {
 }
 
 /// A square pyramid; `up`: 1 is y, 2 is z.
-std::string fbx(int up) {
+const std::string of_metres = "P: \"UnitScaleFactor\", \"double\", \"Number\", \"\",100";
+
+/// A pyramid, 3 high along z. `more`: of the settings.
+std::string fbx(int up, const std::string& more = of_metres) {
   return R"(; FBX 7.4.0 project file
 FBXHeaderExtension:  {
 	FBXHeaderVersion: 1003
@@ -48,6 +51,8 @@ GlobalSettings:  {
 		P: "UpAxis", "int", "Integer", "",)" +
          std::to_string(up) + R"(
 		P: "UpAxisSign", "int", "Integer", "",1
+		)" +
+         more + R"(
 	}
 }
 Objects:  {
@@ -169,6 +174,25 @@ std::string skinned_fbx() {
                   "	C: \"OO\",2002,2001\n	C: \"OO\",1003,2002\n");
 }
 
+std::string chunk(int kind, const std::string& what) {
+  std::string bytes;
+  for (int i = 0; i < 2; ++i) bytes.push_back(static_cast<char>(kind >> 8 * i));
+  for (int i = 0; i < 4; ++i) bytes.push_back(static_cast<char>((what.size() + 6) >> 8 * i));
+  return bytes + what;
+}
+
+/// A tetrahedron with corners at the origin and on the axes, at 2, 3 and 5.
+std::string three_ds() {
+  std::string vertices("\4\0", 2), faces("\4\0", 2);
+  for (const float x : {0.F, 0.F, 0.F, 2.F, 0.F, 0.F, 0.F, 3.F, 0.F, 0.F, 0.F, 5.F})
+    vertices.append(reinterpret_cast<const char*>(&x), sizeof x);
+  for (const char v : {0, 2, 1, 7, 0, 1, 3, 7, 0, 3, 2, 7, 1, 2, 3, 7})  // and what edges show
+    faces += {v, 0};
+  const std::string mesh = chunk(0x4100, chunk(0x4110, vertices) + chunk(0x4120, faces));
+  return chunk(0x4D4D, chunk(2, std::string("\3\0\0\0", 4)) +
+                           chunk(0x3D3D, chunk(0x4000, std::string("t\0", 2) + mesh)));
+}
+
 double height_along(const MeshFile& file, int axis) {
   return file.mesh.positions.col(axis).maxCoeff() - file.mesh.positions.col(axis).minCoeff();
 }
@@ -197,6 +221,50 @@ TEST_CASE(
     shiny.replace(shiny.find(from), from.size(), to);
   CHECK(losses_among(read_mesh(shiny, "a.bin", {}).notes) ==
         std::vector<std::string>{"not carried: specular colour and shininess of 1 of 1 material"});
+}
+
+TEST_CASE("scene_reader: a picture is seen as it is, not times the colour beside it") {
+  std::string text = fbx(1);
+  text.replace(text.find("}\nConnections:  {"), 17, R"(	Material: 1003, "Material::m", "" {
+		Properties70:  {
+			P: "DiffuseColor", "Color", "", "A",0.8,0.8,0.8
+			P: "EmissiveColor", "Color", "", "A",0,0,0
+		}
+	}
+	Texture: 1004, "Texture::t", "" {
+		FileName: "d.png"
+		RelativeFilename: "d.png"
+	}
+	Texture: 1005, "Texture::e", "" {
+		FileName: "e.png"
+		RelativeFilename: "e.png"
+	}
+}
+Connections:  {
+	C: "OO",1003,1002
+	C: "OP",1004,1003, "DiffuseColor"
+	C: "OP",1005,1003, "EmissiveColor")");
+  text.insert(text.find("	}\n	Model:"), R"(
+		LayerElementMaterial: 0 {
+			MappingInformationType: "AllSame"
+			ReferenceInformationType: "IndexToDirect"
+			Materials: *1 {
+				a: 0
+			}
+		}
+		Layer: 0 {
+			LayerElement:  {
+				Type: "LayerElementMaterial"
+				TypedIndex: 0
+			}
+		}
+)");
+  const MeshFile file = read_mesh(text, "a.fbx", {});
+  REQUIRE(file.base_colours.size() == 1);
+  CHECK(file.base_colours[0].image == "d.png");
+  CHECK(file.base_colours[0].factor == std::array<double, 4>{1, 1, 1, 1});
+  CHECK(file.channels[0].emission.image == "e.png");
+  CHECK(file.channels[0].emission.factor == std::array<double, 4>{1, 1, 1, 1});
 }
 
 TEST_CASE("scene_reader: pictures are named beside the scene, wherever they were") {
@@ -231,6 +299,38 @@ TEST_CASE("scene_reader: FBX is read, polygons cut, and turned so that y is up")
   }
 }
 
+TEST_CASE(
+    "scene_reader: an FBX is in metres whatever its unit, which is the centimetre unless it says "
+    "so") {
+  const auto height_of = [](const std::string& unit) {
+    return height_along(read_mesh(fbx(1, unit), "a.fbx", {}), 2);
+  };
+  CHECK(height_of(of_metres) == Approx(3));
+  CHECK(height_of("") == Approx(0.03));
+  CHECK(height_of("P: \"UnitScaleFactor\", \"double\", \"Number\", \"\",2.54") ==
+        Approx(3 * 0.0254));
+  CHECK(height_of("P: \"UnitScaleFactor\", \"double\", \"Number\", \"\",-1") == Approx(0.03));
+}
+
+TEST_CASE("scene_reader: axes of an FBX are turned to right, up and front") {
+  // −y is right, z up, −x in front: where the tip of the pyramid is and a corner of its base.
+  std::string axes = of_metres;
+  for (const auto& [name, number] :
+       {std::pair("CoordAxis", 1), {"CoordAxisSign", -1}, {"FrontAxis", 0}, {"FrontAxisSign", -1}})
+    axes += "\n\t\tP: \"" + std::string(name) + "\", \"int\", \"Integer\", \"\"," +
+            std::to_string(number);
+  std::string text = fbx(2, axes);
+  text.replace(text.find("-1,-1,0,"), 8, "-1,-2,0,");
+  const MeshFile file = read_mesh(text, "a.fbx", {});
+  const auto has = [&](const Vector3& place) {
+    return ((file.mesh.positions.rowwise() - place.transpose()).rowwise().norm().array() < 1e-6)
+        .any();
+  };
+  CHECK(has({0, 3, 0}));
+  CHECK(has({2, 0, 1}));    // (−1, −2, 0)
+  CHECK(has({-1, 0, -1}));  // (1, 1, 0)
+}
+
 TEST_CASE("scene_reader: meshes with a skin are as their joints stand, wherever their nodes are") {
   const std::vector<std::string> told = {
       "not carried: 1 skin: the mesh is read as the joints stand"};
@@ -262,6 +362,31 @@ TEST_CASE("scene_reader: a skin whose bone is nowhere leaves its mesh where the 
   CHECK(height_along(file, 0) == Approx(2));
 }
 
+TEST_CASE("scene_reader: 3DS has z up, and is turned so that y is") {
+  for (const char* const name : {"a.3ds", "a.bin"}) {
+    const MeshFile file = read_mesh(three_ds(), name, {});
+    CHECK(file.format == "3DS");
+    CHECK(file.mesh.face_count() == 4);
+    CHECK(inspect_mesh(prepare_for_mapping(file).mesh).is_sphere());
+    CHECK(height_along(file, 0) == 2);
+    CHECK(height_along(file, 1) == 5);  // along z in the file
+    CHECK(height_along(file, 2) == 3);
+    CHECK(noted_up(file).direction == Vector3::UnitY());
+  }
+}
+
+TEST_CASE("scene_reader: X3D brings its shapes where their transforms put them") {
+  const MeshFile file = read_mesh(
+      "<?xml version=\"1.0\"?><X3D version=\"3.0\"><Scene><Transform translation=\"0 0 7\"><Shape>"
+      "<IndexedFaceSet coordIndex=\"0 2 1 -1 0 1 3 -1 0 3 2 -1 1 2 3 -1\"><Coordinate "
+      "point=\"0 0 0 2 0 0 0 3 0 0 0 5\"/></IndexedFaceSet></Shape></Transform></Scene></X3D>",
+      "a.bin", {});
+  CHECK(file.format == "X3D");
+  CHECK(inspect_mesh(prepare_for_mapping(file).mesh).is_sphere());
+  CHECK(file.mesh.positions.colwise().minCoeff() == Eigen::RowVector3d(0, 0, 7));
+  CHECK(file.mesh.positions.colwise().maxCoeff() == Eigen::RowVector3d(2, 3, 12));
+}
+
 TEST_CASE("scene_reader: what is broken is refused, and says what it was taken for") {
   const auto refused = [](const std::string& bytes, const std::string& name,
                           const std::string& words = "") {
@@ -274,4 +399,6 @@ TEST_CASE("scene_reader: what is broken is refused, and says what it was taken f
   refused(collada().substr(0, 900), "a.dae");
   refused("<COLLADA/>", "a.dae", "Collada");
   refused("", "a.fbx", "the file is empty");
+  refused(three_ds().substr(0, 60), "a.3ds");
+  refused("<X3D>", "a.x3d");
 }

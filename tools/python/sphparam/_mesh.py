@@ -343,7 +343,7 @@ def read_limits(limits: Optional[Mapping[str, int]]) -> Dict[str, int]:
 def read(
     path: Path, *, repeated_corners: bool = False, non_finite: bool = False, limits: Optional[Mapping[str, int]] = None
 ) -> Mesh:
-    """Reads a mesh: OBJ, PLY, OFF, STL, 3MF, glTF, FBX, COLLADA, VTK, GIFTI, FreeSurfer, MZ3, ICQ or plate table, in gzip or not, by content.
+    """Reads a mesh: OBJ, PLY, OFF, STL, 3MF, glTF, FBX, COLLADA, 3DS, X3D, VTK, GIFTI, FreeSurfer, MZ3, ICQ or plate table, in gzip or not, by content.
 
     Copies of vertices are welded where the faces have open edges otherwise, vertices that no face uses
     are dropped; ``notes`` says so and ``vertex_origin`` has the numbers of the file. Faces that name a

@@ -8,8 +8,8 @@
 
 namespace sphparam {
 
-/// Reads OBJ, PLY, OFF, STL, 3MF, glTF, GLB, FBX, COLLADA, polydata of VTK, GIFTI, FreeSurfer, MZ3,
-/// ICQ or a PDS plate table, as it is or in gzip; "-" is standard input.
+/// Reads OBJ, PLY, OFF, STL, 3MF, glTF, GLB, FBX, COLLADA, 3DS, X3D, polydata of VTK, GIFTI,
+/// FreeSurfer, MZ3, ICQ or a PDS plate table, as it is or in gzip; "-" is standard input.
 ///
 /// The format is told by the content, then by the extension of the name. Other formats are refused
 /// by their names. The limit on bytes holds for the file and for what gzip unpacks to. Only a glTF

@@ -11,8 +11,10 @@
 #include <assimp/scene.h>
 
 #include <algorithm>
+#include <assimp/DefaultLogger.hpp>
 #include <assimp/Exporter.hpp>
 #include <assimp/Importer.hpp>
+#include <assimp/LogStream.hpp>
 #include <cmath>
 #include <exception>
 #include <memory>
@@ -27,12 +29,40 @@ namespace {
 constexpr unsigned steps =
     aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_SortByPType;
 
-/// FBX says which axis is up; glTF has y.
-void turn_up(const aiScene& scene) {
-  int axis = 1;
-  if (!scene.mMetaData || !scene.mMetaData->Get("UpAxis", axis) || axis != 2) return;
-  const aiMatrix4x4 z_to_y(1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1);
-  scene.mRootNode->mTransformation = z_to_y * scene.mRootNode->mTransformation;
+/// An axis of an FBX file by what it says of it: ±x, ±y or ±z.
+aiVector3D axis_of(const aiMetadata& said, const std::string& which, int usual) {
+  int axis = usual, sign = 1;
+  said.Get(which, axis);
+  said.Get(which + "Sign", sign);
+  aiVector3D direction;
+  if (axis >= 0 && axis < 3) direction[static_cast<unsigned>(axis)] = sign < 0 ? -1.F : 1.F;
+  return direction;
+}
+
+/// To x, y and z from what points right, up and to who looks at it; where these are no turn, from
+/// what is up, if that is z.
+aiMatrix4x4 turn_of(const aiMetadata& said) {
+  aiVector3D right = axis_of(said, "CoordAxis", 0), front = axis_of(said, "FrontAxis", 2);
+  const aiVector3D up = axis_of(said, "UpAxis", 1), z(0, 0, 1);
+  if ((right ^ up) != front || front.SquareLength() != 1) {
+    if (up != z) return {};
+    right = {1, 0, 0};
+    front = {0, -1, 0};
+  }
+  return {right.x, right.y, right.z, 0, up.x, up.y, up.z, 0,
+          front.x, front.y, front.z, 0, 0,    0,    0,    1};
+}
+
+/// FBX says which axes it has, and how many centimetres its unit; glTF has metres.
+void turn_and_scale(const aiScene& scene) {
+  if (!scene.mMetaData) return;
+  float centimetres = 1;
+  scene.mMetaData->Get("UnitScaleFactor", centimetres);
+  if (!std::isfinite(centimetres) || centimetres <= 0) centimetres = 1;
+  aiMatrix4x4 scale;
+  aiMatrix4x4::Scaling(aiVector3D(centimetres / 100), scale);
+  aiMatrix4x4& root = scene.mRootNode->mTransformation;
+  root = scale * turn_of(*scene.mMetaData) * root;
 }
 
 /// Where a picture is beside the scene: paths of other machines are of no use but for their end.
@@ -53,6 +83,23 @@ void name_pictures(const aiScene& scene) {
       const aiString here(place_here(path.C_Str()));
       scene.mMaterials[m]->AddProperty(&here, AI_MATKEY_TEXTURE(type, 0));
     }
+  }
+}
+
+/// Where a picture is, the colour beside it is not seen: in glTF it would be times the picture.
+void let_pictures_replace(const aiScene& scene) {
+  const aiColor4D white(1, 1, 1, 1);
+  for (unsigned m = 0; m < scene.mNumMaterials; ++m) {
+    aiMaterial& material = *scene.mMaterials[m];
+    const auto has = [&](aiTextureType type) { return material.GetTextureCount(type) > 0; };
+    if (has(aiTextureType_DIFFUSE) || has(aiTextureType_BASE_COLOR)) {
+      material.AddProperty(&white, 1, AI_MATKEY_COLOR_DIFFUSE);
+      material.AddProperty(&white, 1, AI_MATKEY_BASE_COLOR);
+    }
+    float factor = 1;
+    material.Get("$raw.EmissiveFactor", 0, 0, factor);
+    if (has(aiTextureType_EMISSIVE) && factor > 0)
+      material.AddProperty(&white, 1, AI_MATKEY_COLOR_EMISSIVE);
   }
 }
 
@@ -133,21 +180,45 @@ long drop_animations(aiScene& scene) {
   return dropped;
 }
 
+/// What assimp puts right, or does not know, handed on while it lives.
+class Warnings {
+ public:
+  explicit Warnings(SphparamSceneSink sink) {
+    constexpr unsigned severe = Assimp::Logger::Warn | Assimp::Logger::Err;
+    Assimp::DefaultLogger::create(nullptr, Assimp::Logger::NORMAL, 0);
+    Assimp::DefaultLogger::get()->attachStream(new Stream(sink), severe);  // which it owns
+  }
+  ~Warnings() { Assimp::DefaultLogger::kill(); }
+  Warnings(const Warnings&) = delete;
+  Warnings& operator=(const Warnings&) = delete;
+
+ private:
+  struct Stream final : Assimp::LogStream {
+    explicit Stream(SphparamSceneSink to) : sink(to) {}
+    void write(const char* line) override {
+      sink.take(sink.context, line, std::string_view(line).size());
+    }
+    SphparamSceneSink sink;
+  };
+};
+
 int complain(SphparamSceneSink error, std::string_view why) {
   error.take(error.context, why.data(), why.size());
   return 1;
 }
 
 int to_glb(const char* kind, const char* bytes, size_t size, SphparamSceneSink glb,
-           SphparamSceneCounts* counts, SphparamSceneSink error) try {
+           SphparamSceneCounts* counts, SphparamSceneSink warnings, SphparamSceneSink error) try {
+  const Warnings told(warnings);
   Assimp::Importer importer;
   // A scene without meshes is not to show its nodes in their stead.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   const aiScene* const read = importer.ReadFileFromMemory(bytes, size, steps, kind);
   if (!read || !read->mRootNode) return complain(error, importer.GetErrorString());
   const std::unique_ptr<aiScene> scene(importer.GetOrphanedScene());
-  turn_up(*scene);
+  if (std::string_view(kind) == "fbx") turn_and_scale(*scene);
   name_pictures(*scene);
+  let_pictures_replace(*scene);
   std::vector<bool> seen(scene->mNumMeshes);
   counts->skins = pose_meshes(*scene, *scene->mRootNode, seen);
   counts->animations = drop_animations(*scene);

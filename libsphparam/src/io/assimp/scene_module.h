@@ -22,16 +22,16 @@ struct SphparamSceneCounts {
 
 struct SphparamSceneTable {
   int version;
-  /// A scene in memory as the bytes of a GLB: `kind` is "fbx" or "dae". Opens no other file.
-  /// Meshes with a skin are posed as their joints stand at rest, whatever is animated.
-  /// Returns 0, or 1 after telling `error` why.
+  /// A scene in memory as the bytes of a GLB: `kind` is "fbx", "dae", "3ds" or "x3d". Opens no
+  /// other file. Meshes with a skin are posed as their joints stand at rest, whatever is animated.
+  /// `warnings`: a line each. Returns 0, or 1 after telling `error` why.
   int (*to_glb)(const char* kind, const char* bytes, size_t size, SphparamSceneSink glb,
-                SphparamSceneCounts* counts, SphparamSceneSink error);
+                SphparamSceneCounts* counts, SphparamSceneSink warnings, SphparamSceneSink error);
 };
 
 /// The module's one exported name.
 typedef const SphparamSceneTable* (*SphparamSceneTableFunction)();
 }
 
-constexpr int sphparam_scene_table_version = 4;
+constexpr int sphparam_scene_table_version = 5;
 constexpr char sphparam_scene_table_name[] = "sphparam_scene_table";
