@@ -66,6 +66,25 @@ TEST_CASE("solid: its parts are the points that hang together by neighbours") {
   }
 }
 
+TEST_CASE("solid: all that is near but for the lattice's faces, and what it surrounds") {
+  std::vector<float> field(side * side * side, -1);
+  field[static_cast<size_t>(lattice().index(4, 4, 4))] = 1;
+  std::vector<std::int64_t> hollows;
+  const Solid solid = surrounded(lattice(), field, hollows);
+  CHECK(hollows == std::vector{lattice().index(4, 4, 4)});
+  const auto is_inner = [](int i) { return i > 0 && i < side - 1; };
+  for (int z = 0; z < side; ++z) {
+    for (int y = 0; y < side; ++y) {
+      for (int x = 0; x < side; ++x) {
+        const bool inner = is_inner(x) && is_inner(y) && is_inner(z);
+        CHECK(solid[static_cast<size_t>(lattice().index(x, y, z))] == inner);
+      }
+    }
+  }
+  CHECK(hollow_share(field, solid) == 1.0 / (7 * 7 * 7));
+  CHECK(euler_characteristic(lattice(), solid) == 1);
+}
+
 TEST_CASE("level surface: closed and manifold about any solid, and of its Euler characteristic") {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     std::vector<float> field;
@@ -80,6 +99,34 @@ TEST_CASE("level surface: closed and manifold about any solid, and of its Euler 
     // Of a solid's boundary, twice that of the solid.
     CHECK(found.euler_characteristic == 2 * euler_characteristic(lattice(), solid));
     CHECK(found.volume > 0);
+  }
+}
+
+TEST_CASE("level surface: vertices are where the field is 0, half-way where it does not say") {
+  struct Neighbour {
+    Vector3 offset;
+    float value;
+    double share;  // of the way there from the only solid point, whose value is −1
+  };
+  const Neighbour neighbours[] = {{{1, 0, 0}, 3, 0.25},          {{-1, 0, 0}, 1e6f, 0.05},
+                                  {{0, 1, 0}, 0.0078125f, 0.95}, {{0, -1, 0}, -2, 0.5},
+                                  {{0, 0, 1}, 0, 0.5},           {{0, 0, -1}, 0, 0.5}};
+  const Vector3 middle(4, 4, 4);
+  const auto index_of = [](const Vector3& p) {
+    return static_cast<size_t>(
+        lattice().index(static_cast<int>(p.x()), static_cast<int>(p.y()), static_cast<int>(p.z())));
+  };
+  std::vector<float> field(side * side * side, 1);
+  Solid solid(field.size(), 0);
+  field[index_of(middle)] = -1;
+  solid[index_of(middle)] = 1;
+  for (const Neighbour& one : neighbours) field[index_of(middle + one.offset)] = one.value;
+  const TriangleMesh mesh = level_surface(lattice(), field, solid);
+  CHECK(mesh.vertex_count() == 14);
+  for (const Neighbour& one : neighbours) {
+    const Vector3 expected = middle + one.share * one.offset;
+    INFO(expected.transpose());
+    CHECK((mesh.positions.rowwise() - expected.transpose()).rowwise().norm().minCoeff() < 1e-12);
   }
 }
 

@@ -1,3 +1,4 @@
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -60,4 +61,25 @@ TEST_CASE("distance field: where two parts are equally near, it is off by some v
   const Errors errors = errors_of(two_balls(), lattice, 0.1);
   CHECK(errors.near < 1e-4);
   CHECK(errors.beyond < 3);
+}
+
+TEST_CASE("distance field: of a plane exact, also in blocks that are two points wide") {
+  for (int axis = 0; axis < 3; ++axis) {
+    TriangleMesh plane{Points::Zero(4, 3), Triangles(2, 3)};
+    plane.positions.col((axis + 1) % 3) << -500, 500, 500, -500;
+    plane.positions.col((axis + 2) % 3) << -500, -500, 500, 500;
+    plane.triangles << 0, 1, 2, 0, 2, 3;
+    Lattice lattice = {Vector3::Unit(axis), 0.5, {18, 18, 18}};
+    lattice.points[static_cast<size_t>(axis)] = 34;
+    const std::vector<float> field = distance_field(plane, lattice, 0.25, 1, {});
+    for (int z = 0; z < lattice.points[2]; ++z) {
+      for (int y = 0; y < lattice.points[1]; ++y) {
+        for (int x = 0; x < lattice.points[0]; ++x) {
+          // From 1 on, half a unit a voxel, less the distance of half a voxel.
+          const double expected = 2 + std::array{x, y, z}[static_cast<size_t>(axis)] - 0.5;
+          CHECK(field[static_cast<size_t>(lattice.index(x, y, z))] == Approx(expected));
+        }
+      }
+    }
+  }
 }

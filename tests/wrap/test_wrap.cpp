@@ -1,9 +1,14 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include "mesh/vertex_normals.h"
 #include "sphparam/errors.h"
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/wrap/wrap.h"
@@ -188,6 +193,24 @@ TEST_CASE("wrap: drawn in to the gap, where no wall is") {
                   std::invalid_argument);
 }
 
+TEST_CASE("wrap: drawn in, vertices go along their normals, but for corners of turned triangles") {
+  std::vector<std::string> stages;
+  const auto tell = [&](std::string_view stage, double) {
+    if (stages.empty() || stages.back() != stage) stages.emplace_back(stage);
+    return true;
+  };
+  const TriangleMesh before = wrap_soup(sheet(), {.voxel = 0.1}).mesh;
+  const Wrap drawn = wrap_soup(sheet(), {.voxel = 0.1, .gap = 0.01, .progress = tell});
+  CHECK(std::ranges::count(stages, "draw in") == 1);
+  const Points normals = angle_weighted_normals(before);
+  int elsewhere = 0;
+  for (Vertex v = 0; v < before.vertex_count(); ++v) {
+    const Vector3 way = drawn.mesh.position(v) - before.position(v), normal = normals.row(v);
+    elsewhere += way.cross(normal).norm() > 1e-9;
+  }
+  CHECK(elsewhere == 2820);  // of 7620, near the rims
+}
+
 TEST_CASE("wrap: drawn in to a level plate, no vertex comes to lie on it") {
   TriangleMesh plate = sheet();
   plate.positions << 0, 0, 0, 4, 0, 0, 4, 4, 0, 0, 4, 0;
@@ -235,10 +258,15 @@ TEST_CASE("wrap: what has no places, no extent, or too fine a lattice is refused
   soup.triangles(0, 0) = 4;
   CHECK_THROWS_AS(wrap_soup(soup), MeshError);
   CHECK_THROWS_AS(wrap_soup({Points(0, 3), Triangles(0, 3)}), MeshError);
+  CHECK_THROWS_AS(wrap_soup({sheet().positions, Triangles(0, 3)}), MeshError);
+  CHECK_THROWS_AS(wrap_soup({Points::Zero(1, 3), Triangles::Zero(1, 3)}), UnmeasurableMesh);
   soup = sheet();
   soup.positions.setConstant(2);
   CHECK_THROWS_AS(wrap_soup(soup), UnmeasurableMesh);
+  CHECK_THROWS_WITH(wrap_soup(soup), Catch::StartsWith("this mesh has no extent"));
   CHECK_THROWS_AS(wrap_soup(moved(sheet(), {1e15, 0, 0})), UnmeasurableMesh);
+  CHECK_THROWS_WITH(wrap_soup(moved(sheet(), {1e15, 0, 0})),
+                    Catch::Contains("is too small for coordinates up to 1e+15"));
   CHECK_THROWS_AS(wrap_soup(sheet(), {.voxel = 1e-4}), std::invalid_argument);
   CHECK_THROWS_AS(wrap_soup(sheet(), {.voxel = -1}), std::invalid_argument);
   CHECK_THROWS_AS(wrap_soup(sheet(), {.voxel = 0.1, .distance = 0.09}), std::invalid_argument);
