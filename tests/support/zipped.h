@@ -38,7 +38,8 @@ struct Packing {
 inline std::string zipped(const std::vector<std::pair<std::string, std::string>>& files,
                           Packing how = {}) {
   std::string bytes, directory;
-  for (const auto& [name, text] : files) {
+  for (const auto& file : files) {
+    const std::string &name = file.first, &text = file.second;
     const std::string packed = how.deflated ? in_a_stored_block(text) : text;
     const std::size_t offset = bytes.size();
     const auto common = [&](std::string& to, std::uint64_t packed_size, std::uint64_t size) {
