@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <optional>
 #include <string>
 
 #include "program.h"
@@ -31,6 +33,40 @@ TriangleMesh creature(int level, double nose) {
     mesh.positions.row(v) = (1 + nose * one + 0.5 * two + 0.25 * three) * x;
   }
   return mesh;
+}
+
+/// Behind a triangle of its own, without the faces about some vertices.
+TriangleMesh with_splinter_and_holes(const TriangleMesh& mesh) {
+  const auto is_gone = [](Vertex v) { return v >= 500 && v < 2500 && v % 40 == 0; };
+  TriangleMesh result = mesh;
+  result.positions.conservativeResize(mesh.vertex_count() + 3, 3);
+  result.positions.bottomRows(3) = 0.05 * Points::Identity(3, 3);
+  Face faces = 0;
+  result.triangles.row(faces++) << mesh.vertex_count(), mesh.vertex_count() + 1,
+      mesh.vertex_count() + 2;
+  for (Face f = 0; f < mesh.face_count(); ++f) {
+    const auto corners = mesh.triangles.row(f);
+    if (is_gone(corners[0]) || is_gone(corners[1]) || is_gone(corners[2])) continue;
+    result.triangles.row(faces++) = corners;
+  }
+  result.triangles.conservativeResize(faces, 3);
+  return result;
+}
+
+/// Where the vertices of a match lie on the other mesh: nothing where that has no such face.
+std::vector<std::optional<Vector3>> targets(const std::string& match, const std::string& other) {
+  const MeshFile written = read_mesh(match), target = read_mesh(other);
+  const Property* rows = written.find_vertex_property("target_face");
+  std::vector<std::optional<Vector3>> places(rows->values.size());
+  for (size_t v = 0; v < places.size(); ++v) {
+    if (rows->values[v] < 0) continue;
+    places[v] = Vector3::Zero();
+    for (int k = 0; k < 3; ++k)
+      *places[v] +=
+          written.find_vertex_property("target_" + std::to_string(k))->values[v] *
+          target.mesh.position(target.mesh.triangles(static_cast<Face>(rows->values[v]), k));
+  }
+  return places;
 }
 
 /// A ball with four arms.
@@ -119,6 +155,38 @@ TEST_CASE("match: the map is written, certified, with every vertex's point on th
     }
     CHECK((place - other.mesh.position(landmark)).norm() < 1e-12);
   }
+}
+
+TEST_CASE("match --repair: target_face are faces of B's file, -1 what closes a hole") {
+  const Creatures creatures;
+  write_bytes(creatures.second, obj_text(with_splinter_and_holes(creature(4, 1.4))));
+  const std::string mended = creatures.folder / "mended.ply", out = creatures.folder / "m.ply";
+  REQUIRE(sphparam_program({"repair", creatures.second, "-o", mended}).code == 0);
+  REQUIRE(sphparam_program(
+              {"match", creatures.first, mended, "--landmarks", creatures.pairs, "-o", out})
+              .code == 0);
+  const std::vector<std::optional<Vector3>> expected = targets(out, mended);
+  const Ended ended = creatures.match({"--repair"});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  const std::vector<std::optional<Vector3>> found = targets(creatures.out, creatures.second);
+  for (size_t v = 0; v < found.size(); ++v)
+    if (found[v]) CHECK(*found[v] == *expected[v]);
+  const auto unknown = std::count(found.begin(), found.end(), std::nullopt);
+  CHECK(unknown > 0);
+  CHECK_THAT(ended.err, Contains("target_face is -1 at " + std::to_string(unknown) + " vert"));
+}
+
+TEST_CASE("match --repair: where faces were turned it is told what writes those of target_face") {
+  const Creatures creatures;
+  TriangleMesh turned = creature(4, 1.4);
+  std::swap(turned.triangles(9, 0), turned.triangles(9, 1));
+  write_bytes(creatures.second, obj_text(turned));
+  const Ended ended = creatures.match({"--repair"});
+  CHECK(ended.code == 0);
+  CHECK_THAT(ended.err, Contains("out.ply: target_face numbers the triangles of B as it was "
+                                 "mapped, which `sphparam repair ") &&
+                            Contains("second.obj --repair -o MENDED` writes"));
 }
 
 TEST_CASE("match: shapes and values of the other are carried over") {

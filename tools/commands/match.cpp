@@ -123,6 +123,7 @@ Match match(const MatchArguments& arguments, const MappedMesh& first, const Mapp
 
 struct Surfaces {
   MappedMesh first, second;
+  std::optional<std::vector<long>> rows_of_second;  // of its faces, in its file
 };
 
 /// Both, mapped. What they lack, and landmarks and features that they have not, are told before.
@@ -138,8 +139,9 @@ Surfaces read_surfaces(MatchArguments& arguments, const std::optional<LandmarkFi
         landmarks->pairs(FileNumbers(first.file), FileNumbers(second.file));
   }
   read_features_of(arguments, first.file, second.file);
+  std::optional<std::vector<long>> rows = rows_in_file(second);
   return {map_side(a, std::move(first), arguments.repair, session),
-          map_side(b, std::move(second), arguments.repair, session)};
+          map_side(b, std::move(second), arguments.repair, session), std::move(rows)};
 }
 
 /// What A's triangles show of B's shape, where it is asked for.
@@ -157,7 +159,7 @@ int run_match(MatchArguments& arguments) {
   require_there(
       {arguments.first, arguments.second, arguments.first_sphere, arguments.second_sphere});
   session.hold_signals();
-  auto [first, second] = read_surfaces(arguments, landmarks, session);
+  auto [first, second, rows] = read_surfaces(arguments, landmarks, session);
   tell_hemispheres(arguments, first, second, session);
   if (arguments.mirror) first = mirror_image(first, session.threads());
   arguments.options.search = !landmarks && arguments.features.empty();
@@ -171,7 +173,7 @@ int run_match(MatchArguments& arguments) {
                      .mirrored = arguments.mirror,
                      .distortion = summarise_distortion(found.map, session.threads()),
                      .first_mapped_now = first.mapped_here()};
-  record.outputs = add_outputs(arguments, found, session);
+  record.outputs = add_outputs(arguments, found, rows, session);
   record.carried = fidelity(arguments, found, session);
   record.seconds = session.stopwatch.seconds();
   session.add_report([&] { return to_json(record); });

@@ -22,8 +22,23 @@
 namespace sphparam::cli {
 namespace {
 
+/// Where a vertex lies is no use in faces that nobody has.
+void tell_unknown_targets(const MatchArguments& arguments, const MeshFile& written,
+                          bool rows_are_known, Session& session) {
+  const std::string name = "  " + output_name(arguments.output) + ": target_face ";
+  const auto without = std::ranges::count(written.find_vertex_property("target_face")->values, -1);
+  if (!rows_are_known)
+    session.console.say(
+        name + "numbers the triangles of B as it was mapped, which `sphparam repair " +
+        shell_file(arguments.second) + typed_again(arguments.repair) + " -o MENDED` writes");
+  else if (without > 0)
+    session.console.say(name + "is -1 at " + counted(without, "vertex", "vertices") +
+                        ", which lie on faces that B's file has not: the repair added them");
+}
+
 /// The match in the format of its name: the mesh with its map, or the bare sphere.
-void add_map(const MatchArguments& arguments, const Match& match, Session& session) {
+void add_map(const MatchArguments& arguments, const Match& match,
+             const std::optional<std::vector<long>>& rows, Session& session) {
   const MappedMesh& from = match.map.from();
   if (!keeps_map(arguments.output)) {
     const FinishedMap finished{from.file(), from.topology(), from.map(), from.certificate(),
@@ -35,10 +50,12 @@ void add_map(const MatchArguments& arguments, const Match& match, Session& sessi
                 .progress = session.progress()});
     return;
   }
+  const MappedMesh written =
+      with_targets(match.map, session.threads(), rows.value_or(std::vector<long>{}));
   tell_losses(arguments.output,
-              add_mapped(session.files, arguments.output,
-                         with_targets(match.map, session.threads()), session.threads()),
+              add_mapped(session.files, arguments.output, written, session.threads()),
               session.console);
+  tell_unknown_targets(arguments, written.file(), rows.has_value(), session);
 }
 
 void add_morph(const MatchArguments& arguments, const Match& match, Session& session) {
@@ -94,10 +111,11 @@ void add_page(const MatchArguments& arguments, const Match& match, Session& sess
 
 }  // namespace
 
-std::vector<std::pair<std::string, std::string>> add_outputs(const MatchArguments& arguments,
-                                                             const Match& match, Session& session) {
+std::vector<std::pair<std::string, std::string>> add_outputs(
+    const MatchArguments& arguments, const Match& match,
+    const std::optional<std::vector<long>>& rows, Session& session) {
   std::vector<std::pair<std::string, std::string>> outputs{{"map", arguments.output}};
-  add_map(arguments, match, session);
+  add_map(arguments, match, rows, session);
   const auto add = [&](const char* key, const std::string& path, const auto& make) {
     if (path.empty()) return;
     outputs.emplace_back(key, path);

@@ -12,6 +12,7 @@
 #include "io/attributes/weightiest_label.h"
 #include "io/data_comments.h"
 #include "io/match_targets.h"
+#include "sphparam/io/file_numbers.h"
 #include "sphparam/io/sphere_file.h"
 
 namespace sphparam {
@@ -120,9 +121,21 @@ void reflect(MeshFile& file) {
   take_volume(file, {});  // it has no mirror image
 }
 
+/// Whether faces that stay have the corners that they had, in their order.
+bool keeps_corners(RepairKind kind) {
+  using enum RepairKind;
+  constexpr std::array kinds = {NonFiniteFaceRemoved, NonFiniteVertexDropped,
+                                InvalidFaceRemoved,   DuplicateFaceRemoved,
+                                VertexWelded,         EdgeSplit,
+                                VertexSplit,          ComponentDropped,
+                                HoleFilled,           HoleKept,
+                                UnusedVertexDropped};
+  return std::ranges::count(kinds, kind) > 0;
+}
+
 }  // namespace
 
-MappedMesh with_targets(const SurfaceMap& map, int threads) {
+MappedMesh with_targets(const SurfaceMap& map, int threads, const std::vector<long>& numbers) {
   const MappedMesh& from = map.from();
   const std::vector<SurfacePoint> points = map.forth(threads);
   MeshFile file = from.file();
@@ -131,7 +144,8 @@ MappedMesh with_targets(const SurfaceMap& map, int threads) {
   for (size_t k = 0; k < 3; ++k)
     weights[k] = {"target_" + std::to_string(k), ScalarType::Float64, {}};
   for (const SurfacePoint& point : points) {
-    face.values.push_back(point.face);
+    const auto row = static_cast<size_t>(point.face);
+    face.values.push_back(static_cast<double>(numbers.empty() ? point.face : numbers[row]));
     for (size_t k = 0; k < 3; ++k)
       weights[k].values.push_back(point.barycentric[static_cast<Eigen::Index>(k)]);
   }
@@ -146,6 +160,19 @@ MappedMesh with_targets(const SurfaceMap& map, int threads) {
                      .mapped_here = from.mapped_here(),
                      .name = from.name()},
                     threads);
+}
+
+std::optional<std::vector<long>> rows_in_file(const MeshSource& source) {
+  if (source.file.polygons > 0) return std::nullopt;
+  if (source.repairs.empty()) return std::vector<long>{};
+  if (std::ranges::count(source.notes, other_numbers_note) > 0 ||
+      !std::ranges::all_of(source.repairs, keeps_corners, &RepairAction::kind))
+    return std::nullopt;
+  const FileNumbers numbers(source.file);
+  std::vector<long> rows;
+  for (Face face = 0; face < source.file.mesh.face_count(); ++face)
+    rows.push_back(numbers.face_number(face));
+  return rows;
 }
 
 MeshFile in_other_shape(const SurfaceMap& map, int threads) {

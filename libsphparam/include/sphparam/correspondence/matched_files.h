@@ -1,14 +1,26 @@
 #pragma once
 
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "sphparam/correspondence/surface_map.h"
 #include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/mesh_file.h"
+#include "sphparam/io/mesh_source.h"
 
 namespace sphparam {
 
 /// `from` as it is written: with its map, and for every vertex its point on `to`: properties
 /// target_face and target_0, target_1, target_2, the barycentric weights of its corners.
-MappedMesh with_targets(const SurfaceMap& map, int threads = 0);
+/// `numbers`: what the faces of `to` are called, of `rows_in_file`; none: by their rows.
+MappedMesh with_targets(const SurfaceMap& map, int threads = 0,
+                        const std::vector<long>& numbers = {});
+
+/// The row that each face of a mesh has in its file, −1 for what mending added; empty where nothing
+/// was done, so that rows are those of the file. Nothing where they cannot be told: mending cut or
+/// turned faces, or the file has polygons or, mended once more, numbers of yet another.
+std::optional<std::vector<long>> rows_in_file(const MeshSource& source);
 
 /// The triangles of `from`, with what its vertices carry, in the shape of `to`; without normals and
 /// tangents, which would be those of the other shape; the axis that points up and the volume of
