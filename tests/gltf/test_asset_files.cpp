@@ -1,8 +1,10 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <iterator>
+#include <string>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "sphparam/gltf/export.h"
 #include "sphparam/io/mesh_reader.h"
@@ -32,6 +34,13 @@ TEST_CASE("asset files: an asset is called as its mesh, without folders and endi
                                      {"egg.ply.gz", "egg"},
                                      {"mesh", "mesh"}})
     CHECK(make_asset(ball(name), small).name == called);
+}
+
+TEST_CASE("asset files: of an .obj its .mtl and an image, of a .ply an image") {
+  const Look look = make_look(ball("ball.obj"), small);
+  const auto files = [&](const std::string& path) { return textured_files(path, look); };
+  CHECK(files("to/a.obj") == std::vector<std::string>{"to/a.obj", "to/a.mtl", "to/a_checker.png"});
+  CHECK(files("to/a.ply") == std::vector<std::string>{"to/a.ply", "to/a_checker.png"});
 }
 
 TEST_CASE("asset files: a textured mesh without an image is refused") {

@@ -105,6 +105,39 @@ TEST_CASE("gltf_writer: textures wrap in u and are clamped in v") {
   CHECK(gltf["textures"][0]["sampler"] == 0);
 }
 
+TEST_CASE("gltf_writer: buffers are for vertices or indices, but those of animations for neither") {
+  constexpr int of_vertices = 34962, of_indices = 34963;
+  const json gltf = json_of(glb_bytes(Charted({}, 1).asset({.morph = Morph::Sphere})));
+  const auto view_of = [&](const json& accessor) {
+    return gltf["bufferViews"][gltf["accessors"][accessor.get<int>()]["bufferView"].get<int>()];
+  };
+  const json& primitive = gltf["meshes"][0]["primitives"][0];
+  CHECK(view_of(primitive["indices"])["target"] == of_indices);
+  for (const json& accessor : primitive["attributes"])
+    CHECK(view_of(accessor)["target"] == of_vertices);
+  for (const json& accessor : primitive["targets"][0])
+    CHECK(view_of(accessor)["target"] == of_vertices);
+  const json& sampler = gltf["animations"][0]["samplers"][0];
+  for (const char* key : {"input", "output"}) CHECK_FALSE(view_of(sampler[key]).contains("target"));
+  CHECK_FALSE(json_of(glb_bytes(long_asset(3)))["meshes"][0]["primitives"][0].contains("targets"));
+}
+
+TEST_CASE("gltf_writer: a material gives light by its texture, as strongly as it says") {
+  Asset asset = long_asset(3);
+  asset.images = {white_asset_image()};
+  const auto material = [&] { return json_of(glb_bytes(asset))["materials"][0]; };
+  CHECK_FALSE(material().contains("emissiveFactor"));
+  asset.materials[0].emissive = 0;
+  CHECK(material()["emissiveTexture"] == json{{"index", 0}});
+  CHECK(material()["emissiveFactor"] == json::array({1, 1, 1}));
+  CHECK_FALSE(material().contains("extensions"));
+  asset.materials[0].emissive_strength = 2.5;
+  CHECK(material()["extensions"] ==
+        json{{"KHR_materials_emissive_strength", {{"emissiveStrength", 2.5}}}});
+  asset.materials[0].unlit = true;
+  CHECK_FALSE(material().contains("emissiveFactor"));
+}
+
 TEST_CASE("gltf_writer: materials after the first are variants, each of its own name") {
   Asset asset = Charted().asset();
   asset.materials = {{.name = "baked"}, {.name = "checker"}, {.name = "area"}};
@@ -178,7 +211,10 @@ TEST_CASE("gltf_writer: images beside a .gltf are named after it, with signs esc
   REQUIRE(files.size() == 3);
   CHECK(files[1].first == "an egg.bin");
   CHECK(files[2].first == "an egg_white.png");
-  CHECK(json::parse(files[0].second)["images"][0]["uri"] == "an%20egg_white.png");
+  const json gltf = json::parse(files[0].second);
+  CHECK(gltf["images"][0]["uri"] == "an%20egg_white.png");
+  CHECK(gltf["buffers"][0]["uri"] == "an%20egg.bin");
+  CHECK(gltf["buffers"][0]["byteLength"] == files[1].second.size());
 }
 
 TEST_CASE("gltf_writer: the same bytes for the same asset and any number of threads") {

@@ -11,8 +11,10 @@
 #include "io/attributes/shading_normals.h"
 #include "io/files/read_back.h"
 #include "sphparam/chart/tangent_frame.h"
+#include "sphparam/gltf/export.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/mesh_writer.h"
+#include "support/mapped.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;
@@ -223,4 +225,16 @@ TEST_CASE(
   }
   CHECK(sum / count < 0.5);
   CHECK(flat / count > 8);
+}
+
+TEST_CASE("hard edges: those of a mesh are none of the sphere that is shown in its place") {
+  Charted egg({}, 2);
+  const auto vertices = [&](ShapeKind shape) {
+    return make_asset(mapped(egg.file, egg.map), {.shape = shape}).levels[0].vertex_count();
+  };
+  const auto smooth = vertices(ShapeKind::Mesh), sphere = vertices(ShapeKind::Sphere);
+  CHECK(smooth == sphere);
+  egg.file.corner_normals = flat_normals(egg.file.mesh);
+  CHECK(vertices(ShapeKind::Mesh) > smooth);
+  CHECK(vertices(ShapeKind::Sphere) == sphere);
 }
