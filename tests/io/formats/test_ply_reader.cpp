@@ -2,6 +2,7 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 
@@ -99,6 +100,28 @@ TEST_CASE("ply_reader: an ASCII tetrahedron has its vertices and triangles") {
   CHECK(file.mesh.position(1) == Vector3(-1, -1, 1));
   CHECK(file.mesh.triangles == read(tetrahedron_obj).mesh.triangles);
   CHECK(file.notes.empty());
+}
+
+TEST_CASE("ply_reader: a text of floats that says more than these hold keeps its digits") {
+  const auto with = [](const std::string& x) {
+    return read(replaced(tetrahedron_ply, "-1 -1 1", x + " -1 0.1"));
+  };
+  for (const std::string x : {"500123.1234", "0.70710678", "16777217", "+5.001231234e5"}) {
+    const MeshFile file = with(x);
+    INFO(x);
+    CHECK(file.position_type == ScalarType::Float64);
+    CHECK(file.mesh.position(1) == Vector3(std::stod(x), -1, 0.1));
+  }
+  // What a float prints as, with six, nine, seventeen digits, exactly, or halfway between two
+  // texts.
+  for (const std::string x : {"0.333333", "0.100000001", "0.10000000149011612", "500123.125000",
+                              "500123.12", "500123.13", "16777216", "1e-41", "-3.40282e+38"}) {
+    const MeshFile file = with(x);
+    INFO(x);
+    CHECK(file.position_type == ScalarType::Float32);
+    CHECK(file.mesh.position(1) == Vector3(static_cast<double>(std::strtof(x.c_str(), nullptr)), -1,
+                                           static_cast<double>(0.1f)));
+  }
 }
 
 TEST_CASE("ply_reader: both byte orders hold the same mesh") {

@@ -109,6 +109,25 @@ std::string deflated(const std::string& bytes) {
 
 }  // namespace
 
+TEST_CASE("vtk: a text of floats that says more than these hold keeps its digits") {
+  const auto check = [](const std::string& text) {
+    const MeshFile rounded = read(replaced(text, "-1 -1 1", "0.1 0.333333 1"));
+    CHECK(rounded.position_type == ScalarType::Float32);
+    CHECK(rounded.mesh.position(1) ==
+          Vector3(static_cast<double>(0.1f), static_cast<double>(0.333333f), 1));
+    const MeshFile kept = read(replaced(text, "-1 -1 1", "0.1 5200456.8599 1"));
+    CHECK(kept.position_type == ScalarType::Float64);
+    CHECK(kept.mesh.position(1) == Vector3(0.1, 5200456.8599, 1));
+  };
+  check(tetrahedron_vtk);
+  check(
+      "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"4\" NumberOfPolys=\"4\">"
+      "<Points><DataArray type=\"Float32\" NumberOfComponents=\"3\">1 1 1 -1 -1 1 -1 1 -1 1 -1 -1"
+      "</DataArray></Points><Polys><DataArray type=\"Int32\" Name=\"connectivity\">0 2 1 0 1 3 0 3 "
+      "2 1 2 3</DataArray><DataArray type=\"Int32\" Name=\"offsets\">3 6 9 12</DataArray></Polys>"
+      "</Piece></PolyData></VTKFile>");
+}
+
 TEST_CASE("vtk: what is written is read back bit for bit, and written again the same") {
   const MeshFile file = rich_mesh();
   const std::pair<Serialise*, const char*> formats[] = {{serialise_legacy_vtk, "a.vtk"},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "io/files/float32_digits.h"
 #include "io/files/non_finite_advice.h"
 
 namespace sphparam {
@@ -97,6 +98,17 @@ std::string_view TextScanner::comment() {
 
 // std::from_chars reports numbers below the smallest double like numbers above the largest. The
 // wider range of long double tells them apart.
+double TextScanner::coordinate32(bool& exceeds) {
+  const char* const start = skip_plus();
+  const double value = coordinate();
+  if (std::isfinite(value) && !std::isfinite(rounded_to_float32(value))) {
+    cursor_ = start;
+    fail_expected("a number within range");
+  }
+  exceeds = exceeds || exceeds_float32({start, static_cast<std::size_t>(cursor_ - start)}, value);
+  return value;
+}
+
 double TextScanner::out_of_range_number(const char* start, const char* stop, std::errc error) {
   if (error != std::errc::result_out_of_range) fail_expected("a number");
   long double wide = 0;

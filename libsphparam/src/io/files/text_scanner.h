@@ -60,7 +60,9 @@ class TextScanner {
   double real() { return number<double>("a number"); }
   /// The same for coordinates, which options may let be no finite numbers.
   double coordinate() { return number<double>("a number", of_coordinates()); }
-  float coordinate32() { return number<float>("a number", of_coordinates()); }
+  /// A coordinate that float32 has room for, with all digits of its text: `exceeds` becomes true
+  /// where these are more than a float32 holds.
+  double coordinate32(bool& exceeds);
   float real32() { return number<float>("a number"); }
   /// The same of values that may be no finite numbers: whoever reads them leaves them out.
   double any_real() { return number<double>("a number", NonFinite::Taken); }

@@ -16,12 +16,11 @@
 // from bytes in either order. All bodies have the same functions, so that one reader serves every
 // encoding:
 //   begin(record), end()  about each record, of an element of the header
-//   coordinate(type)      of a place: finite, unless the options allow others
-//   real(type)            finite
-//   any_real(type)        any number
-//   integer(type)         a whole number that the type holds
-//   skip(type, count)     numbers that nobody wants
-//   fail(message)         throws ReadError that says where in the file the body is
+//   coordinate(type)      of a place: finite, unless the options allow others; a text's has all
+//   digits exceeds_float32()     whether these, where it should be a Float32, were more than that
+//   holds real(type)            finite any_real(type)        any number integer(type)         a
+//   whole number that the type holds skip(type, count)     numbers that nobody wants fail(message)
+//   throws ReadError that says where in the file the body is
 
 namespace sphparam {
 
@@ -57,7 +56,7 @@ class PlyTextBody {
 
   double coordinate(ScalarType type) {
     if (type == ScalarType::Float64) return scanner_.coordinate();
-    if (type == ScalarType::Float32) return static_cast<double>(scanner_.coordinate32());
+    if (type == ScalarType::Float32) return scanner_.coordinate32(exceeds_float32_);
     return real(type);
   }
 
@@ -85,11 +84,13 @@ class PlyTextBody {
     for (std::int64_t i = 0; i < count; ++i) any_real(type);
   }
 
+  bool exceeds_float32() const { return exceeds_float32_; }
   bool has_trailing_data() { return scanner_.next_filled_line(); }
   [[noreturn]] void fail(const std::string& message) const { scanner_.fail(message); }
 
  private:
   TextScanner scanner_;
+  bool exceeds_float32_ = false;
 };
 
 /// The numbers of bytes, record after record without a gap.
@@ -137,6 +138,7 @@ class PlyBinaryBody {
     offset_ += static_cast<std::size_t>(count) * size;
   }
 
+  bool exceeds_float32() const { return false; }
   bool has_trailing_data() const { return offset_ < bytes_.size(); }
   [[noreturn]] void fail(const std::string& message) const {
     throw ReadError::at_byte(name_, offset_, message);

@@ -9,6 +9,7 @@
 
 #include "io/attributes/other_colours.h"
 #include "io/attributes/texture_pages.h"
+#include "io/files/float32_digits.h"
 #include "io/formats/ply/missing_values.h"
 #include "io/formats/ply/ply_body.h"
 #include "io/formats/ply/ply_layout.h"
@@ -92,7 +93,22 @@ class PlyReader {
       read_record(element, targets, v);
       body_.end();
     }
+    settle_digits(element);
     leave_out_non_finite(file_.vertex_properties, true, name_, file_.notes);
+  }
+
+  /// Texts that say more than the float32 that the header declares are kept as they are; else each
+  /// number is the float32 that was printed.
+  void settle_digits(const PlyElement& element) {
+    if (body_.exceeds_float32()) {
+      file_.position_type = ScalarType::Float64;
+      return;
+    }
+    constexpr std::string_view axes = "xyz";
+    for (std::size_t axis = 0; axis < axes.size(); ++axis)
+      if (element.find(axes.substr(axis, 1))->type == ScalarType::Float32)
+        for (double& value : file_.mesh.positions.col(static_cast<Eigen::Index>(axis)))
+          value = rounded_to_float32(value);
   }
 
   static ScalarType position_type(const PlyElement& element) {

@@ -15,7 +15,8 @@ bool looks_like_ply(std::string_view bytes);
 
 /// Reads a PLY file: ASCII, binary little-endian or binary big-endian.
 ///
-/// Kept: all scalar properties of vertices and faces in their own types, polygons, the face lists
+/// Kept: all scalar properties of vertices and faces in their own types (coordinates of a text that
+/// says more than the float which the header declares as Float64), polygons, the face lists
 /// `texcoord` (two numbers a corner, as MeshLab writes them) and `normal` (three a corner, as
 /// serialise_ply writes them), comments, materials; where `folder` is given, images that comments
 /// name (texture_pages.h), which are looked for below it. `diffuse_red` and so on are colours, and

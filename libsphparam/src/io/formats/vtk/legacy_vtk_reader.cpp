@@ -80,7 +80,7 @@ class LegacyVtkReader {
     if (count > options_.max_vertices)
       scanner_.fail(std::to_string(count) + " points are over the limit of " +
                     std::to_string(options_.max_vertices));
-    surface_.points = read_array("Points", 3, count, scanner_.word());
+    surface_.points = read_array("Points", 3, count, scanner_.word(), TextDigits::AllThatMatter);
   }
 
   // --- Cells ---
@@ -182,14 +182,14 @@ class LegacyVtkReader {
   // --- Arrays ---
 
   VtkArray read_array(std::string name, std::int64_t width, std::int64_t tuples,
-                      std::string_view type) {
+                      std::string_view type, TextDigits digits = TextDigits::AsDeclared) {
     VtkArray array;
     array.name = std::move(name);
     if (width < 1 || width > most_arrays)
       scanner_.fail("an array of " + std::to_string(width) + " components");
     array.width = width;
     VtkType kept{};
-    array.values = scanner_.numbers(type, width * tuples, kept);
+    array.values = scanner_.numbers(type, width * tuples, kept, digits);
     array.type = kept_type(kept, array, surface_.notes);
     return array;
   }

@@ -76,11 +76,10 @@ bool parse_type(std::string_view written, VtkType& type) {
   return false;
 }
 
-/// Whether a number of a text is one of this type; those of 32 bits are rounded to it.
-bool fit(double& value, VtkType type) {
-  return with_vtk_type(type, [&value](auto scalar) {
+/// Whether a number of a text is one of this type; floats are still to be rounded.
+bool fits(double value, VtkType type) {
+  return with_vtk_type(type, [value](auto scalar) {
     using T = decltype(scalar);
-    if constexpr (std::is_same_v<T, float>) value = static_cast<double>(static_cast<float>(value));
     if constexpr (std::is_floating_point_v<T>) return true;
     return value == std::floor(value) &&
            value >= static_cast<double>(std::numeric_limits<T>::lowest()) &&
@@ -146,10 +145,10 @@ void LegacyVtkScanner::end_line() {
 }
 
 std::vector<double> LegacyVtkScanner::numbers(std::string_view type, std::int64_t count,
-                                              VtkType& kept) {
+                                              VtkType& kept, TextDigits digits) {
   if (!parse_type(type, kept)) fail("unknown type " + quoted(type));
   const auto size = static_cast<std::size_t>(count);
-  if (!binary_) return text_numbers(kept, size);
+  if (!binary_) return text_numbers(kept, size, digits);
   end_line();
   return upper(type) == bit_type ? bits(size) : binary_numbers(kept, size);
 }
@@ -186,20 +185,24 @@ std::vector<double> LegacyVtkScanner::bits(std::size_t count) {
   return values;
 }
 
-std::vector<double> LegacyVtkScanner::text_numbers(VtkType type, std::size_t count) {
+std::vector<double> LegacyVtkScanner::text_numbers(VtkType& type, std::size_t count,
+                                                   TextDigits digits) {
   // A number takes two bytes with its separator, which the last one may lack.
   if (count > (bytes_.size() - at_ + 1) / 2)
     fail(std::to_string(count) + " numbers do not fit the " + std::to_string(bytes_.size() - at_) +
          " bytes that follow");
+  Float32Texts floats(digits);
   std::vector<double> values(count);
   for (double& value : values) {
     std::string_view text = word();
     if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
-    std::optional<double> found = parsed<double>(text);
-    if (!found || !fit(*found, type))
+    const std::optional<double> found = parsed<double>(text);
+    if (!found || !fits(*found, type))
       fail("expected a number, found " + (text.empty() ? "the end of the file" : quoted(text)));
     value = *found;
+    if (type == VtkType::Float32) floats.look_at(text, value);
   }
+  floats.settle(type, values);
   return values;
 }
 

@@ -29,7 +29,8 @@ class LegacyVtkScanner {
   std::int64_t count(const char* what);
 
   /// Numbers of one type. Throws: ReadError where they are not there: nothing is set aside before.
-  std::vector<double> numbers(std::string_view type, std::int64_t count, VtkType& kept);
+  std::vector<double> numbers(std::string_view type, std::int64_t count, VtkType& kept,
+                              TextDigits digits = TextDigits::AsDeclared);
   std::vector<std::string> strings(std::int64_t count);
   static bool is_string_type(std::string_view type);
 
@@ -39,7 +40,7 @@ class LegacyVtkScanner {
   void skip_blanks();
   void end_line();
   std::vector<double> binary_numbers(VtkType type, std::size_t count);
-  std::vector<double> text_numbers(VtkType type, std::size_t count);
+  std::vector<double> text_numbers(VtkType& type, std::size_t count, TextDigits digits);
   std::vector<double> bits(std::size_t count);
   std::string binary_string();
 

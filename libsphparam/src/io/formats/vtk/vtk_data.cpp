@@ -151,14 +151,15 @@ class DataReader {
   Source source_;
 };
 
-std::vector<double> numbers_of_text(const VtkXmlArray& array, VtkType type,
-                                    const std::string& name) {
+std::vector<double> numbers_of_text(const VtkXmlArray& array, VtkType& type,
+                                    const std::string& name, TextDigits digits) {
+  Float32Texts floats(digits);
   std::vector<double> values;
   const char* at = array.text.data();
   const char* const end = at + array.text.size();
   for (;;) {
     at = std::find_if_not(at, end, is_blank);
-    if (at == end) return values;
+    if (at == end) break;
     double value = 0;
     const char* const start = *at == '+' ? at + 1 : at;
     const auto [stop, error] = std::from_chars(start, end, value);
@@ -167,10 +168,13 @@ std::vector<double> numbers_of_text(const VtkXmlArray& array, VtkType type,
         (whole && value != std::floor(value)))
       fail_in_array(name, array,
                     "has " + quoted({at, std::find_if(at, end, is_blank)}) + " for a number");
-    if (type == VtkType::Float32) value = static_cast<double>(static_cast<float>(value));
+    if (type == VtkType::Float32)
+      floats.look_at({start, static_cast<std::size_t>(stop - start)}, value);
     values.push_back(value);
     at = stop;
   }
+  floats.settle(type, values);
+  return values;
 }
 
 std::vector<double> numbers_of_bytes(const std::string& bytes, VtkType type, std::endian order,
@@ -197,7 +201,7 @@ VtkDecoder::VtkDecoder(const VtkDocument& document, std::size_t file_bytes, cons
       numbers_left_(most_numbers_per_byte * file_bytes + always_allowed) {}
 
 VtkArray VtkDecoder::numbers(const VtkXmlArray& array, std::int64_t count,
-                             std::vector<std::string>& notes) {
+                             std::vector<std::string>& notes, TextDigits digits) {
   VtkType type = VtkType::Uint8;
   const bool is_bits = array.type == bit_type;
   if (!is_bits && !parse_type(array.type, type))
@@ -207,7 +211,7 @@ VtkArray VtkDecoder::numbers(const VtkXmlArray& array, std::int64_t count,
   decoded.width = array.width;
   decoded.component_names = array.component_names;
   if (count != 0 && array.encoding == VtkEncoding::Ascii) {
-    decoded.values = numbers_of_text(array, type, name_);
+    decoded.values = numbers_of_text(array, type, name_, digits);
   } else if (count != 0) {
     DataReader reader(
         document_, array, name_,
@@ -232,7 +236,8 @@ std::vector<std::string> VtkDecoder::strings(const VtkXmlArray& array) {
     numbers_left_ -= bytes.size();
   } else {
     constexpr double last_byte = 255;
-    for (const double code : numbers_of_text(array, VtkType::Int32, name_))
+    VtkType type = VtkType::Int32;
+    for (const double code : numbers_of_text(array, type, name_, TextDigits::AsDeclared))
       bytes += static_cast<char>(static_cast<int>(std::clamp(code, 0.0, last_byte)));
   }
   std::vector<std::string> strings;

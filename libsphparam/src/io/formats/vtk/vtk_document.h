@@ -66,7 +66,8 @@ class VtkDecoder {
   /// The numbers of an array: as many as `count` says, or as there are where it is −1. Whole
   /// numbers of 64 bits that had to be rounded are told among `notes`.
   /// Throws: ReadError at the array's line.
-  VtkArray numbers(const VtkXmlArray& array, std::int64_t count, std::vector<std::string>& notes);
+  VtkArray numbers(const VtkXmlArray& array, std::int64_t count, std::vector<std::string>& notes,
+                   TextDigits digits = TextDigits::AsDeclared);
 
   /// The strings of an array of type String.
   std::vector<std::string> strings(const VtkXmlArray& array);

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "io/files/float32_digits.h"
 #include "io/files/non_finite_advice.h"
 #include "io/formats/lossless_type.h"
 #include "io/formats/non_finite_numbers.h"
@@ -284,6 +285,18 @@ VtkArray gathered(const std::vector<Property>& properties, std::size_t at, std::
 
 std::size_t size_in_bytes(VtkType type) {
   return with_vtk_type(type, [](auto scalar) { return sizeof scalar; });
+}
+
+void Float32Texts::look_at(std::string_view text, double value) {
+  exceed_ = exceed_ || (digits_ == TextDigits::AllThatMatter && exceeds_float32(text, value));
+}
+
+void Float32Texts::settle(VtkType& type, std::vector<double>& values) const {
+  if (type != VtkType::Float32) return;
+  if (exceed_)
+    type = VtkType::Float64;
+  else
+    for (double& value : values) value = rounded_to_float32(value);
 }
 
 ScalarType kept_type(VtkType type, const VtkArray& array, std::vector<std::string>& notes) {

@@ -49,6 +49,26 @@ decltype(auto) with_vtk_type(VtkType type, Function&& function) {
 
 std::size_t size_in_bytes(VtkType type);
 
+/// What is done with the digits of texts that are declared as float32: the numbers are rounded to
+/// that, or are doubles where one of them says more than it holds.
+enum class TextDigits { AsDeclared, AllThatMatter };
+
+/// Floats of a text, one after another.
+class Float32Texts {
+ public:
+  explicit Float32Texts(TextDigits digits) : digits_(digits) {}
+
+  /// `value`: the double that `text` is.
+  void look_at(std::string_view text, double value);
+
+  /// Of the values that were looked at: rounds them, or makes the type Float64. Others stay.
+  void settle(VtkType& type, std::vector<double>& values) const;
+
+ private:
+  TextDigits digits_;
+  bool exceed_ = false;
+};
+
 /// What an array stands for, beside its name.
 enum class VtkRole { Plain, Normals, Texcoords, Colours };
 

@@ -79,7 +79,8 @@ class XmlVtkReader {
     if (piece.coordinates) {
       if (piece.coordinates->width != 3)
         fail_in_array(name_, *piece.coordinates, "does not have three coordinates a point");
-      points = decoder_.numbers(*piece.coordinates, 3 * piece.points, surface_.notes);
+      points = decoder_.numbers(*piece.coordinates, 3 * piece.points, surface_.notes,
+                                TextDigits::AllThatMatter);
     }
     if (!surface_.points) {
       surface_.points = std::move(points);

@@ -1,0 +1,33 @@
+#include "io/files/float32_digits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "parsed_number.h"
+
+namespace sphparam {
+namespace {
+
+/// What a unit of the last digit is: 0.01 of 12.34, 100 of 1.2e3.
+double unit_of_last_digit(std::string_view text) {
+  const std::size_t mark = std::min(text.find_first_of("eE"), text.size());
+  const std::size_t point = text.substr(0, mark).find('.');
+  int exponent = point == std::string_view::npos ? 0 : -static_cast<int>(mark - point - 1);
+  std::string_view written = text.substr(std::min(mark + 1, text.size()));
+  if (written.starts_with('+')) written.remove_prefix(1);
+  exponent += parsed<int>(written).value_or(0);
+  return std::pow(10.0, exponent);
+}
+
+}  // namespace
+
+bool exceeds_float32(std::string_view text, double value) {
+  constexpr double least = std::numeric_limits<float>::min();
+  // A float that lies in the middle of two texts may be printed as either.
+  constexpr double half = 0.5 + 1e-6;
+  const double off = std::abs(value - rounded_to_float32(value));
+  return off > 0 && std::abs(value) >= least && off > half * unit_of_last_digit(text);
+}
+
+}  // namespace sphparam
