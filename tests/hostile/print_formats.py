@@ -55,7 +55,7 @@ def make_three_mf():
     nested = "".join("<object id='%d'><components>%s</components></object>" %
                      (i, ("<component objectid='%d'/>" % (i + 1)) * 9) for i in range(1, 12))
     bad("a_billion_components", in_file(model(nested + one.replace("id='1'", "id='12'"), item)),
-        "more than 1000000")
+        "more than 100000")
     bad("vertex_beyond", in_file(changed(plain, "v1='0'", "v1='4'")), "names vertex 4 of 4")
     bad("vertex_negative", in_file(changed(plain, "v1='0'", "v1='-1'")), "names vertex -1 of 4")
     bad("vertex_huge", in_file(changed(plain, "v1='0'", "v1='99999999999999999999'")), "expected a number for v1")

@@ -22,8 +22,8 @@ namespace {
 constexpr std::string_view relationships = "_rels/.rels";
 constexpr std::string_view usual_model = "3D/3dmodel.model";
 constexpr std::string_view volumes_of_prusa = "Metadata/Slic3r_PE_model.config";
-constexpr int deepest = 64;             // of components within components
-constexpr int most_placed = 1'000'000;  // of objects and components
+constexpr int deepest = 64;           // of components within components
+constexpr int most_placed = 100'000;  // of objects and components
 
 /// Finds the target of the relationship to the model.
 class RelationshipReader final : public XmlEvents {
