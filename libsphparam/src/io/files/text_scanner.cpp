@@ -96,8 +96,6 @@ std::string_view TextScanner::comment() {
   return text;
 }
 
-// std::from_chars reports numbers below the smallest double like numbers above the largest. The
-// wider range of long double tells them apart.
 double TextScanner::coordinate32(bool& exceeds) {
   const char* const start = skip_plus();
   const double value = coordinate();
@@ -109,6 +107,8 @@ double TextScanner::coordinate32(bool& exceeds) {
   return value;
 }
 
+// std::from_chars reports numbers below the smallest double like numbers above the largest. The
+// wider range of long double tells them apart.
 double TextScanner::out_of_range_number(const char* start, const char* stop, std::errc error) {
   if (error != std::errc::result_out_of_range) fail_expected("a number");
   long double wide = 0;

@@ -16,11 +16,13 @@
 // from bytes in either order. All bodies have the same functions, so that one reader serves every
 // encoding:
 //   begin(record), end()  about each record, of an element of the header
-//   coordinate(type)      of a place: finite, unless the options allow others; a text's has all
-//   digits exceeds_float32()     whether these, where it should be a Float32, were more than that
-//   holds real(type)            finite any_real(type)        any number integer(type)         a
-//   whole number that the type holds skip(type, count)     numbers that nobody wants fail(message)
-//   throws ReadError that says where in the file the body is
+//   coordinate(type)      of a place: finite, unless the options allow others; with all its digits
+//   exceeds_float32()     whether one that should be a Float32 had more digits than that holds
+//   real(type)            finite
+//   any_real(type)        any number
+//   integer(type)         a whole number that the type holds
+//   skip(type, count)     numbers that nobody wants
+//   fail(message)         throws ReadError that says where in the file the body is
 
 namespace sphparam {
 
