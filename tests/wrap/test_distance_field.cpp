@@ -56,6 +56,12 @@ TEST_CASE("distance field: exact near its zero, and nearly so where distances ar
   CHECK(errors.interpolated > lattice.size() / 4);
 }
 
+TEST_CASE(
+    "distance field: exact near its zero at ten voxels from a ball, where all is smooth too") {
+  const Lattice lattice = {Vector3(0.9, -0.5, -0.5), 0.05, {21, 21, 21}};
+  CHECK(errors_of(icosphere(4), lattice, 0.5).near < 1e-5);
+}
+
 TEST_CASE("distance field: where two parts are equally near, it is off by some voxels at most") {
   const Lattice lattice = {Vector3::Constant(-2.5), 0.05, {101, 101, 101}};
   const Errors errors = errors_of(two_balls(), lattice, 0.1);

@@ -3,6 +3,7 @@
 #include <random>
 
 #include "sphparam/mesh/mesh_defects.h"
+#include "sphparam/mesh/topology.h"
 #include "support/test_meshes.h"
 #include "wrap/quadric.h"
 #include "wrap/simplification.h"
@@ -57,6 +58,19 @@ TEST_CASE("simplification: what is few enough stays as it is, far from the origi
   TriangleMesh made = simplified(far, 200);
   made.positions.array() -= 1e6;
   CHECK(volume_of(made) == Approx(volume_of(simplified(icosphere(4), 200))).epsilon(0.01));
+}
+
+TEST_CASE("simplification: the shortest edge goes first, whichever vertices it joins") {
+  for (const Vertex v : {0, 1, 17, 41}) {
+    TriangleMesh mesh = icosphere(1);
+    const Vertex w =
+        mesh.triangles(Topology(mesh).outgoing(v) / 3, (Topology(mesh).outgoing(v) + 1) % 3);
+    mesh.positions.row(v) = 0.001 * mesh.positions.row(v) + 0.999 * mesh.positions.row(w);
+    const TriangleMesh made = simplified(mesh, 78);
+    CHECK(made.face_count() == 78);
+    for (const auto& place : mesh.positions.rowwise())  // all others stay
+      CHECK((made.positions.rowwise() - place).rowwise().norm().minCoeff() < 0.01);
+  }
 }
 
 TEST_CASE("simplification: however large or small, the same triangles, at the same places") {
