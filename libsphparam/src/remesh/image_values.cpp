@@ -19,6 +19,7 @@ namespace {
 
 constexpr double most_half = 65504;
 constexpr double steps_of_16_bits = 65535;
+constexpr char offset_text[] = "sphparam:offset";
 
 using Texts = std::vector<std::pair<std::string, std::string>>;
 
@@ -42,6 +43,17 @@ struct Range {
   std::vector<double> least, greatest;
 
   double width(size_t channel) const { return greatest[channel] - least[channel]; }
+
+  /// Whether numbers are so large for their extent that some of their digits are no float's.
+  bool is_far() const {
+    constexpr double far_by = 128;  // 128 · 2^-24 is 1e-5 of the extent
+    double size = 0, extent = 0;
+    for (size_t k = 0; k < least.size(); ++k) {
+      size = std::max({size, std::abs(least[k]), std::abs(greatest[k])});
+      extent = std::max(extent, width(k));
+    }
+    return extent > 0 && size > far_by * extent;
+  }
 };
 
 Range range_of(const std::vector<double>& values, size_t channels) {
@@ -52,6 +64,17 @@ Range range_of(const std::vector<double>& values, size_t channels) {
     range.greatest[i % channels] = std::max(range.greatest[i % channels], values[i]);
   }
   return range;
+}
+
+/// What floats are counted from, a channel; empty where that is 0, as where they hold all numbers.
+std::vector<double> offset_of(const std::vector<double>& values, const Range& range,
+                              ImageDepth depth) {
+  const auto is_lost = [](double value) {
+    return static_cast<double>(static_cast<float>(value)) != value;
+  };
+  const bool needed = depth != ImageDepth::Uint16 && range.is_far() &&
+                      std::any_of(values.begin(), values.end(), is_lost);
+  return needed ? range.least : std::vector<double>();
 }
 
 double quantised(double value, ImageDepth depth, const Range& range, size_t channel) {
@@ -131,11 +154,13 @@ GeometryImage make_geometry_image(const GridSpec& spec, const Points& directions
   const ImageLayout layout = image_layout(spec, directions);
   const auto width = static_cast<size_t>(channels);
   const Range range = range_of(values, width);
+  const std::vector<double> offset = offset_of(values, range, depth);
   GeometryImage result{Image(layout.width, layout.height, channels),
                        {{"sphparam:grid", name_of(spec)}, {"sphparam:depth", name_of(depth)}}};
   for (size_t i = 0; i < layout.vertex.size(); ++i) {
     for (size_t k = 0; k < width; ++k) {
-      const double value = values[static_cast<size_t>(layout.vertex[i]) * width + k];
+      const double value = values[static_cast<size_t>(layout.vertex[i]) * width + k] -
+                           (offset.empty() ? 0 : offset[k]);
       result.image.pixels[i * width + k] = static_cast<float>(quantised(value, depth, range, k));
     }
   }
@@ -143,6 +168,7 @@ GeometryImage make_geometry_image(const GridSpec& spec, const Points& directions
     result.texts.emplace_back("sphparam:min", text_of(range.least));
     result.texts.emplace_back("sphparam:max", text_of(range.greatest));
   }
+  if (!offset.empty()) result.texts.emplace_back(offset_text, text_of(offset));
   return result;
 }
 
@@ -172,6 +198,10 @@ ImageContents read_geometry_image(const Image& image, const Texts& texts, int th
       const double step = std::nearbyint(contents.values[i] * steps_of_16_bits);
       contents.values[i] = least[k] + (greatest[k] - least[k]) * (step / steps_of_16_bits);
     }
+  } else if (text_named(texts, offset_text)) {
+    const auto channels = static_cast<size_t>(image.channels);
+    const auto offset = numbers_of(texts, offset_text, channels);
+    for (size_t i = 0; i < contents.values.size(); ++i) contents.values[i] += offset[i % channels];
   }
   const auto is_finite = [](double value) { return std::isfinite(value); };
   if (!std::all_of(contents.values.begin(), contents.values.end(), is_finite)) {

@@ -16,7 +16,9 @@ namespace sphparam {
 ImageLayout image_layout(const GridSpec& spec, const Points& directions);
 
 /// Values a vertex as an image that can be turned back, and the texts that must go with it:
-/// sphparam:grid, sphparam:depth and, of 16-bit integers, sphparam:min and sphparam:max a channel.
+/// sphparam:grid, sphparam:depth and, of 16-bit integers, sphparam:min and sphparam:max a channel;
+/// of floats sphparam:offset a channel, where values that are far from 0 for their extent are less
+/// that.
 struct GeometryImage {
   Image image;
   std::vector<std::pair<std::string, std::string>> texts;

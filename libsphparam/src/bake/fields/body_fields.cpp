@@ -1,7 +1,12 @@
 #include "bake/fields/body_fields.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 
+#include "bake/fields/far_values.h"
 #include "elementary.h"
 #include "mesh/float32_size.h"
 #include "mesh/triangle_geometry.h"
@@ -48,6 +53,27 @@ SurfaceField field_of_places(SurfaceField described, const BakeScene& scene, con
     }
   };
   return described;
+}
+
+/// The same of one length, which far from 0 for the extent of the mesh is counted from the least at
+/// a vertex.
+template <class Value>
+SurfaceField field_of_lengths(SurfaceField described, const BakeScene& scene, const Value& value) {
+  const Points& positions = scene.source.mesh().positions;
+  double least = std::numeric_limits<double>::infinity(), size = 0;
+  for (Eigen::Index v = 0; v < positions.rows(); ++v) {
+    const Vector3 p = positions.row(v).transpose() - centre_of(scene);
+    const double here = value(Vector3(scene.body_axes * p));
+    least = std::min(least, here);
+    size = std::max(size, std::abs(here));
+  }
+  const double origin = is_far(size, box_of(positions)) ? least : 0;
+  described.origin[0] = origin;
+  described.unit = unit_of_lengths(scene.options);
+  return field_of_places(std::move(described), scene,
+                         [value, origin](Face, const Vector3& p, float* out) {
+                           out[0] = static_cast<float>(value(p) - origin);
+                         });
 }
 
 std::string east_or_west(const BakeScene& scene) {
@@ -108,12 +134,9 @@ SurfaceField directions_from_centre(const BakeScene& scene) {
 
 SurfaceField make_radius(const BakeScene& scene, const std::string&) {
   require_float32_size(scene.source.mesh().positions, "radius");
-  return field_of_places({.name = "radius",
-                          .about = "distance from the centre of the body, in units of the mesh",
-                          .unit = unit_of_lengths(scene.options)},
-                         scene, [](Face, const Vector3& p, float* out) {
-                           out[0] = static_cast<float>(p.stableNorm());
-                         });
+  return field_of_lengths(
+      {.name = "radius", .about = "distance from the centre of the body, in units of the mesh"},
+      scene, [](const Vector3& p) { return p.stableNorm(); });
 }
 
 SurfaceField make_slope(const BakeScene& scene, const std::string&) {
@@ -143,12 +166,9 @@ SurfaceField make_elevation(const BakeScene& scene, const std::string&) {
   const std::string shape = round ? "the sphere of radius " + shortest(axes.x())
                                   : "the ellipsoid of semi-axes " + shortest(axes.x()) + ", " +
                                         shortest(axes.y()) + ", " + shortest(axes.z());
-  return field_of_places({.name = "elevation",
-                          .about = "radius minus that of " + shape + ", in units of the mesh",
-                          .unit = unit_of_lengths(scene.options)},
-                         scene, [axes](Face, const Vector3& p, float* out) {
-                           out[0] = static_cast<float>(p.stableNorm() - radius_of(axes, p));
-                         });
+  return field_of_lengths(
+      {.name = "elevation", .about = "radius minus that of " + shape + ", in units of the mesh"},
+      scene, [axes](const Vector3& p) { return p.stableNorm() - radius_of(axes, p); });
 }
 
 }  // namespace sphparam
