@@ -7,15 +7,40 @@
 #include <random>
 
 #include "io/files/file_bytes.h"
+#include "io/formats/ply/ply_writer.h"
 #include "reading.h"
+#include "sphparam/io/coarse_coordinates.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/mesh/mesh_repair.h"
 #include "support/folder.h"
+#include "support/test_meshes.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;
 using sphparam::MeshFile;
 using sphparam::ReadOptions;
+
+TEST_CASE("mesh_reader: floats that are far from the origin for the size of a mesh are told") {
+  const auto notes = [](ScalarType type, double away, double size) {
+    MeshFile file;
+    file.mesh = icosphere(2);
+    file.mesh.positions *= size;
+    file.mesh.positions.col(1).array() += away;
+    for (double& value : file.mesh.positions.reshaped())
+      if (type == ScalarType::Float32) value = static_cast<double>(static_cast<float>(value));
+    file.position_type = type;
+    return read(serialise_ply(file)).notes;
+  };
+  const std::vector<std::string> found = notes(ScalarType::Float32, 5.2e6, 2);
+  CHECK(found == std::vector<std::string>{
+                     "coordinates: so far from the origin, numbers of 32 bits are 0.5 apart, 12.5 "
+                     "% of the mesh's length and 80.5 % of its mean edge: area, volume and "
+                     "distances are rough; export it in doubles, or moved nearer"});
+  CHECK(coarse_coordinates_among(found) == found);
+  CHECK(notes(ScalarType::Float64, 5.2e6, 2).empty());
+  CHECK(notes(ScalarType::Float32, 5.2e6, 20).empty());
+  CHECK(notes(ScalarType::Float32, 0, 2).empty());
+}
 
 TEST_CASE("mesh_reader: content decides the format before the name does") {
   CHECK(read(tetrahedron_ply, "a.obj").format == "PLY ASCII");

@@ -6,6 +6,7 @@
 
 #include "commands/sources.h"
 #include "number_text.h"
+#include "sphparam/io/coarse_coordinates.h"
 #include "sphparam/io/fillers.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/paths.h"
@@ -15,6 +16,8 @@ namespace sphparam::cli {
 namespace {
 
 MeshFile told_surface(MeshFile file, const std::string& path, Session& session) {
+  for (const std::string& coarse : coarse_coordinates_among(file.notes))
+    session.console.warning(display_name(path) + ": " + coarse);
   for (const std::string& note : file.notes) session.console.detail(note);
   const FillerMarks fillers = fillers_of(file);
   if (fillers.empty()) return file;

@@ -76,9 +76,8 @@ std::string advice(const MapOutcome& outcome, bool written) {
 
 void tell_stages(const MapOutcome& outcome, Console& console) {
   tell_losses(outcome.source, console);
-  const std::vector<std::string> told = losses_among(outcome.source.notes);
-  for (const std::string& note : outcome.source.notes)
-    if (std::find(told.begin(), told.end(), note) == told.end()) console.detail("  note: " + note);
+  for (const std::string& note : quiet_notes(outcome.source.notes))
+    console.detail("  note: " + note);
   tell_repairs(outcome.source, console);
   // What looks wrong on the map is told unasked.
   for (const std::string& warning : shape_warnings(outcome.source)) console.warning(warning);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "sphparam/io/coarse_coordinates.h"
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/paths.h"
@@ -14,9 +15,16 @@ void tell_losses(const MeshSource& source, Console& console) {
 
 void tell_notes(const MeshSource& source, Console& console) {
   tell_losses(source, console);
-  const std::vector<std::string> losses = losses_among(source.notes);
-  for (const std::string& note : source.notes)
-    if (!std::ranges::count(losses, note)) console.note(note);
+  for (const std::string& note : quiet_notes(source.notes)) console.note(note);
+}
+
+std::vector<std::string> quiet_notes(const std::vector<std::string>& notes) {
+  std::vector<std::string> told = losses_among(notes);
+  for (std::string& coarse : coarse_coordinates_among(notes)) told.push_back(std::move(coarse));
+  std::vector<std::string> quiet;
+  for (const std::string& note : notes)
+    if (!std::ranges::count(told, note)) quiet.push_back(note);
+  return quiet;
 }
 
 void add_replaced(std::vector<std::string>& losses, const MeshFile& file) {
@@ -43,6 +51,8 @@ void tell_losses_of_reading(const std::string& path, const std::vector<std::stri
                             Console& console) {
   for (const std::string& loss : losses_among(notes))
     console.loss(display_name(path) + ": " + loss);
+  for (const std::string& coarse : coarse_coordinates_among(notes))
+    console.warning(display_name(path) + ": " + coarse);
 }
 
 void tell_losses(const std::string& path, const std::vector<std::string>& losses,

@@ -13,6 +13,7 @@
 #include "io/formats/shapes/plain_table.h"
 #include "io/shell_word.h"
 #include "number_text.h"
+#include "sphparam/io/coarse_coordinates.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/vertex_data.h"
 
@@ -172,8 +173,11 @@ MeshFile read_bytes(std::string_view bytes, const std::string& name,
                     const ReadOptions& options) {
   if (bytes.size() > options.max_file_bytes)
     throw ReadError(name, "is larger than " + file_limit(options.max_file_bytes));
-  return looks_like_gzip(bytes) ? read_gzip(bytes, name, folder, options)
-                                : read_unpacked(bytes, name, folder, options);
+  MeshFile file = looks_like_gzip(bytes) ? read_gzip(bytes, name, folder, options)
+                                         : read_unpacked(bytes, name, folder, options);
+  std::string coarse = options.only_map ? "" : coarse_coordinates(file.mesh);
+  if (!coarse.empty()) file.notes.push_back(std::move(coarse));
+  return file;
 }
 
 /// Numbers of a surface's vertices, which people name in the place of the surface.

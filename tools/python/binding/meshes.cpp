@@ -9,6 +9,7 @@
 #include "call.h"
 #include "records/body_record.h"
 #include "sphparam/io/certified_files.h"
+#include "sphparam/io/coarse_coordinates.h"
 #include "sphparam/io/creases.h"
 #include "sphparam/io/fillers.h"
 #include "sphparam/io/losses.h"
@@ -179,8 +180,13 @@ void declare_source(py::module_& module) {
           [](Source& self, const FilePath& path) { self.mesh.path = path; })
       .def_property_readonly("format", [](const Source& self) { return self.mesh.file.format; })
       .def_property_readonly("notes", [](const Source& self) { return as_texts(self.mesh.notes); })
-      .def_property_readonly(
-          "losses", [](const Source& self) { return as_texts(losses_among(self.mesh.notes)); })
+      .def_property_readonly("losses",
+                             [](const Source& self) {
+                               std::vector<std::string> told = losses_among(self.mesh.notes);
+                               for (std::string& coarse : coarse_coordinates_among(self.mesh.notes))
+                                 told.push_back(std::move(coarse));
+                               return as_texts(told);
+                             })
       .def_property_readonly("materials",
                              [](const Source& self) { return as_texts(self.mesh.file.materials); })
       .def_property_readonly("comments",
