@@ -149,6 +149,45 @@ TEST_CASE("export: levels end where none is coarser, which is told, and none is 
   CHECK(Json::parse(bytes_of(report))["lods"] == 1);
 }
 
+TEST_CASE("export: levels of as many triangles as are named, at most") {
+  const Egg egg;
+  const std::string report = egg.folder / "r.json";
+  const Ended ended = egg.run("a.glb", {"--lod-faces", "100,30", "--json", report});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.err, !Contains("warning"));
+  const Json json = Json::parse(bytes_of(report));
+  CHECK(json["lods_wanted"] == 2);
+  CHECK(json["lods"] == 2);
+  for (const int level : {1, 2}) {
+    CHECK(json["levels"][level]["in_space"]["triangles"] == 0);
+    CHECK(json["levels"][level]["certified_as_stored"] == true);
+  }
+  CHECK(json["levels"][1]["triangles"] >= 100);  // the chart cuts some
+  CHECK(json["levels"][2]["triangles"] < json["levels"][1]["triangles"]);
+  CHECK(std::filesystem::exists(egg.folder / "a_lod2.glb"));
+  const Ended same = egg.run("b.glb", {"--lod-faces", "320"});
+  CHECK(same.code == 0);
+  CHECK_THAT(same.err, Contains("--lod-faces: 0 coarser meshes are written; the last has 320 "));
+}
+
+TEST_CASE("export: levels that cross themselves in space are told, and in the report") {
+  const Egg egg;
+  TriangleMesh spiked = icosphere(2);
+  spiked.positions.row(0) *= -3;  // through what lies opposite
+  write_bytes(egg.mesh, obj_text(spiked));
+  write_bytes(egg.folder / "ball.obj", obj_text(icosphere(2)));
+  const std::string report = egg.folder / "r.json";
+  const Ended ended =
+      egg.run("a.glb", {"--sphere", egg.folder / "ball.obj", "--lods", "1", "--json", report});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.err, Contains("warning: level 1: ") && Contains("cross others in space"));
+  const Json found = Json::parse(bytes_of(report))["levels"][1]["in_space"];
+  CHECK(found["crossings"]["pairs"] > 0);
+  CHECK(found["crossings_of_mesh"] > 0);
+}
+
 TEST_CASE("export: levels of a mesh without area are written, how far they are is left out") {
   const Egg egg;
   TriangleMesh needle = icosphere(2);
@@ -576,6 +615,10 @@ TEST_CASE("export: what makes no sense is refused with a reason, and nothing is 
       {"x.glb", {"--keep-topology", "--refine-poles", "3"}, 2, "--keep-topology"},
       {"x.obj", {"--quantize"}, 2, "--quantize"},
       {"x.obj", {"--lods", "2"}, 2, "--lods"},
+      {"x.obj", {"--lod-faces", "20"}, 2, "--lod-faces"},
+      {"x.glb", {"--lods", "1", "--lod-faces", "20"}, 2, "--lods and --lod-faces"},
+      {"x.glb", {"--lod-faces", "20,20"}, 2, "numbers of triangles that fall"},
+      {"x.glb", {"--lod-faces", "3"}, 2, "numbers of triangles that fall"},
       {"x.glb", {"--image-size", "30"}, 2, "multiple of 4"},
       {"x.glb", {"--unlit", "--tangents"}, 2, "--unlit"},
       {"x.glb", {"--textures", "wepb"}, 2, "did you mean webp?"},

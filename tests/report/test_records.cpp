@@ -624,6 +624,23 @@ TEST_CASE("export_record: what is proved of each level, and the files") {
   CHECK(level_lines(record) ==
         std::vector<std::string>{
             "level 1, 320 triangles: RMS 0.5 %, at most 2 % of the diagonal, both ways"});
+  CHECK_FALSE(json["levels"][1].contains("in_space"));
+  CHECK(warnings_of(record).empty());
+  record.in_space.push_back(
+      {.crossings = {.pairs = 4, .faces = 6}, .faces = 7, .area_share = 0.25, .source_pairs = 1});
+  json = Json::parse(to_json(record));
+  CHECK_FALSE(json["levels"][0].contains("in_space"));
+  CHECK(json["levels"][1]["in_space"]["triangles"] == 7);
+  CHECK(json["levels"][1]["in_space"]["area_share"] == 0.25);
+  CHECK(json["levels"][1]["in_space"]["crossings"]["pairs"] == 4);
+  CHECK(warnings_of(record) ==
+        std::vector<std::string>{
+            "level 1: 7 triangles, 25 % of the area, cross others in space or lie inverted; of the "
+            "mesh itself 1 pair crosses: what is proved is the map"});
+  record.in_space[0] = {.crossings = {.all = false}};
+  CHECK_THAT(warnings_of(record).at(0), Contains("level 1: too many triangles are near"));
+  record.in_space[0] = {};
+  CHECK(warnings_of(record).empty());
   record.distances[0].reset();
   CHECK_FALSE(Json::parse(to_json(record))["levels"][1].contains("rms"));
   CHECK(level_lines(record).empty());

@@ -3,7 +3,9 @@
 #include "arguments/export_arguments.h"
 
 #include "arguments/ends.h"
+#include "arguments/numbers.h"
 #include "arguments/texture_arguments.h"
+#include "arguments/words.h"
 #include "console/exit_codes.h"
 #include "console/places.h"
 
@@ -60,6 +62,18 @@ void declare_chart(Declaration& command, ExportOptions& options) {
       .up(options.up);
 }
 
+/// 20000 and 5000 of "20000,5000"; empty where it is none such.
+std::vector<long> falling_numbers(const std::string& text) {
+  constexpr std::size_t most = 8;
+  std::vector<long> numbers;
+  for (const std::string& word : split(text)) {
+    const long end = numbers.empty() ? 2'000'000'000 : numbers.back() - 1;
+    if (!complaint_of_number(word, Range<long>{4, end}).empty()) return {};
+    numbers.push_back(std::stol(word));
+  }
+  return numbers.size() > most ? std::vector<long>{} : numbers;
+}
+
 void declare_buffers(Declaration& command, ExportArguments& arguments) {
   ExportOptions& options = arguments.exported;
   command
@@ -72,7 +86,16 @@ void declare_buffers(Declaration& command, ExportArguments& arguments) {
       .flag("--compress", arguments.compress,
             "EXT_meshopt_compression of 16-bit numbers, in another order")
       .number("--lods", arguments.lods, "N", {0, 8},
-              "So many coarser meshes, each a quarter of the one before, down to an icosahedron")
+              "So many coarser meshes, 8 at most, each a quarter of the one before, down to 20 "
+              "triangles")
+      .parsed(
+          "--lod-faces", "N,N,…",
+          [&arguments](const std::string& text) {
+            arguments.lod_faces = falling_numbers(text);
+            return !arguments.lod_faces.empty();
+          },
+          "expected up to 8 numbers of triangles that fall, from 4 on, as in 20000,5000",
+          "Coarser meshes of at most so many triangles, before the chart cuts some")
       .choice("--lod", arguments.lod_style, {{"files", LodStyle::Files}, {"msft", LodStyle::Msft}},
               "Files of their own, NAME_lod1 …, or one file (default: files)");
 }
@@ -93,14 +116,15 @@ void refuse_combinations(const ExportArguments& a, const std::string& extension)
          "--refine-poles adds vertices, --keep-topology forbids them");
   refuse(e.morph != Morph::None && e.shape != ShapeKind::Mesh,
          "--morph starts from the mesh: leave out --shape");
-  refuse(e.morph != Morph::None && a.lods > 0,
+  refuse(a.lods > 0 && !a.lod_faces.empty(), "--lods and --lod-faces: one of them says how many");
+  refuse(e.morph != Morph::None && a.levels() > 0,
          "--lods are of meshes that do not change: leave out --morph");
-  refuse(e.keep_topology && a.lods > 0, "--lods are new meshes: leave out --keep-topology");
-  refuse(e.shape != ShapeKind::Mesh && a.lods > 0, "--lods are of the mesh: leave out --shape");
-  refuse(e.source_uv && a.lods > 0,
+  refuse(e.keep_topology && a.levels() > 0, "--lods are new meshes: leave out --keep-topology");
+  refuse(e.shape != ShapeKind::Mesh && a.levels() > 0, "--lods are of the mesh: leave out --shape");
+  refuse(e.source_uv && a.levels() > 0,
          "--lods have no texture coordinates of the mesh: leave out --source-uv");
   refuse(a.embedded && extension != ".gltf", "--embedded is for .gltf; a .glb is one file anyway");
-  refuse(a.lods > 0 && is_stream(a.output) && a.lod_style == LodStyle::Files,
+  refuse(a.levels() > 0 && is_stream(a.output) && a.lod_style == LodStyle::Files,
          "--lods are files: give -o a name");
   refuse(!a.scalar.empty() && (!look.texture.empty() || !look.folder.empty()),
          "--scalar is colours of its own: leave out --image and --images");
@@ -130,6 +154,7 @@ void refuse_beyond_geometry(const ExportArguments& a, const std::string& extensi
                                       {e.quantise, "--quantize"},
                                       {a.compress, "--compress"},
                                       {a.lods > 0, "--lods"},
+                                      {!a.lod_faces.empty(), "--lod-faces"},
                                       {a.lod_style == LodStyle::Msft, "--lod msft"}}) {
     if (given) throw UsageMistake(option + only);
   }

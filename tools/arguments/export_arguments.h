@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "arguments/repair_arguments.h"
 #include "sphparam/gltf/export.h"
@@ -20,12 +21,15 @@ struct ExportArguments : CommonArguments {
   bool all_components = false;  // of the files that `map` made of parts
   bool embedded = false, compress = false;
   int lods = 0;
-  double crease = -1;  // degrees; below 0: none
-  double scale = 1;    // of lengths
-  std::string scalar;  // of the vertices, which is seen as colours; empty: none
+  std::vector<long> lod_faces = {};  // triangles of each level instead; they fall
+  double crease = -1;                // degrees; below 0: none
+  double scale = 1;                  // of lengths
+  std::string scalar;                // of the vertices, which is seen as colours; empty: none
   std::optional<std::pair<double, double>> range;  // of its colours
   LodStyle lod_style = LodStyle::Files;
   RepairArguments repair;
+
+  int levels() const { return lod_faces.empty() ? lods : static_cast<int>(lod_faces.size()); }
 };
 
 void declare_export_options(Declaration& command, ExportArguments& arguments);

@@ -26,6 +26,7 @@
 #include "sphparam/measure/measurable.h"
 #include "sphparam/records/export_record.h"
 #include "sphparam/remesh/levels_of_detail.h"
+#include "sphparam/remesh/simplify.h"
 #include "sphparam/render/coloured_values.h"
 
 namespace sphparam::cli {
@@ -73,7 +74,7 @@ ExportOptions export_options(const ExportArguments& arguments, Session& session)
 /// What can be told of the outputs before work: the images' names come later.
 void check_first_places(const ExportArguments& arguments) {
   Outputs outputs = {{"--json", arguments.json}};
-  const int files = arguments.lod_style == LodStyle::Files ? arguments.lods : 0;
+  const int files = arguments.lod_style == LodStyle::Files ? arguments.levels() : 0;
   for (int level = 0; level <= files; ++level) {
     const std::filesystem::path path = level_path(arguments.output, level);
     outputs.emplace_back("-o", path.string());
@@ -151,11 +152,8 @@ class Exporter {
 
   void add_gltf(const MappedMesh& mapped, const Look& look) {
     std::vector<MappedMesh> coarser =
-        quartered_meshes(mapped, arguments_.lods,
-                         {.sample = SampleMode::Cell,
-                          .transfer = look.vertex_colours ? Words{"color"} : Words{},
-                          .threads = options_.threads,
-                          .progress = options_.progress});
+        simplified_meshes(mapped, wanted_triangles(mapped),
+                          {.threads = options_.threads, .progress = options_.progress});
     remarks_ = look.remarks;
     note_levels(mapped, coarser);
     measure(mapped, coarser);
@@ -173,9 +171,20 @@ class Exporter {
     }
   }
 
+  std::vector<long> wanted_triangles(const MappedMesh& mapped) const {
+    if (arguments_.lod_faces.empty()) return quarters(mapped.mesh().face_count(), arguments_.lods);
+    return arguments_.lod_faces;
+  }
+
   void measure(const MappedMesh& mapped, const std::vector<MappedMesh>& coarser) {
     record_.diagonal = diagonal_of(mapped.mesh().positions);
-    for (const MappedMesh& mesh : coarser) record_.distances.push_back(distance_of(mapped, mesh));
+    for (const MappedMesh& mesh : coarser) {
+      record_.distances.push_back(distance_of(mapped, mesh));
+      record_.in_space.push_back(faces_in_space(
+          mapped, mesh,
+          {.most_looks = usual_looks, .threads = options_.threads, .progress = options_.progress}));
+    }
+    session_.warn(warnings_of(record_));
     const auto unknown = std::ranges::count_if(
         record_.distances, [](const auto& distance) { return !distance.has_value(); });
     if (unknown == 0) return;
@@ -202,14 +211,24 @@ class Exporter {
   }
 
   void note_levels(const MappedMesh& mapped, const std::vector<MappedMesh>& coarser) {
-    record_.lods_wanted = arguments_.lods;
+    record_.lods_wanted = arguments_.levels();
     record_.lods = static_cast<int>(coarser.size());
+    for (std::size_t i = 0; i < std::min(coarser.size(), arguments_.lod_faces.size()); ++i)
+      tell_count(coarser[i].mesh().face_count(), arguments_.lod_faces[i]);
     if (record_.lods == record_.lods_wanted) return;
     const MappedMesh& last = coarser.empty() ? mapped : coarser.back();
     session_.console.warning(
-        "--lods " + std::to_string(record_.lods_wanted) + ": " +
-        counted(record_.lods, "coarser mesh is", "coarser meshes are") + " written; the last has " +
-        counted(last.mesh().face_count(), "triangle") + ", and none is coarser");
+        (arguments_.lod_faces.empty() ? "--lods " + std::to_string(record_.lods_wanted)
+                                      : std::string("--lod-faces")) +
+        ": " + counted(record_.lods, "coarser mesh is", "coarser meshes are") +
+        " written; the last has " + counted(last.mesh().face_count(), "triangle") +
+        ", and none is coarser");
+  }
+
+  void tell_count(long triangles, long wanted) {
+    if (triangles <= wanted) return;
+    session_.console.warning("--lod-faces: " + counted(triangles, "triangle") + " instead of " +
+                             std::to_string(wanted) + ": with fewer the map would fold");
   }
 
   void add_asset_at(int level, const Asset& asset) {

@@ -25,6 +25,8 @@ std::string to_json(const ExportRecord& record) {
       levels.back()["rms"] = record.distances[level - 1]->rms;
       levels.back()["max"] = record.distances[level - 1]->max;
     }
+    if (level > 0 && level <= record.in_space.size())
+      levels.back()["in_space"] = in_space_json(record.in_space[level - 1]);
     if (chart.sphere_folds >= 0) levels.back()["sphere_folds_as_stored"] = chart.sphere_folds;
   }
   for (const auto& [path, bytes] : record.outputs)
@@ -38,6 +40,24 @@ std::string to_json(const ExportRecord& record) {
                   {"outputs", outputs},
                   {"textures", textures_json(record.textures)},
                   {"seconds", record.seconds}});
+}
+
+std::vector<std::string> warnings_of(const ExportRecord& record) {
+  std::vector<std::string> warnings;
+  for (std::size_t i = 0; i < record.in_space.size(); ++i) {
+    const FacesInSpace& found = record.in_space[i];
+    const std::string level = "level " + std::to_string(i + 1) + ": ";
+    if (found.faces > 0)
+      warnings.push_back(
+          level + counted(found.faces, "triangle") + ", " + percent(found.area_share) +
+          " of the area, cross others in space or lie inverted; of the mesh itself " +
+          counted(found.source_pairs, "pair crosses", "pairs cross") +
+          ": what is proved is the map");
+    else if (!found.crossings.none())
+      warnings.push_back(level +
+                         "too many triangles are near one another to say whether any cross");
+  }
+  return warnings;
 }
 
 std::vector<std::string> level_lines(const ExportRecord& record) {

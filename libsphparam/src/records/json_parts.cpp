@@ -81,6 +81,16 @@ Json crossings_json(const SelfCrossings& crossings) {
           {"all_looked_at", crossings.all}};
 }
 
+Json in_space_json(const std::optional<FacesInSpace>& found) {
+  if (!found) return nullptr;
+  return {{"triangles", found->faces},
+          {"area_share", found->area_share},
+          {"turned_over", found->turned_over},
+          {"concave_quads", found->concave_quads},
+          {"crossings", crossings_json(found->crossings)},
+          {"crossings_of_mesh", found->source_pairs}};
+}
+
 Json inspection_json(const MeshInspection& inspection) {
   Json defects = Json::array();
   for (const MeshDefect& defect : inspection.defects) defects.push_back(defect_json(defect));

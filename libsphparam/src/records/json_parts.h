@@ -11,6 +11,7 @@
 #include "sphparam/io/mesh_source.h"
 #include "sphparam/mesh/self_crossings.h"
 #include "sphparam/parameterize.h"
+#include "sphparam/remesh/faces_in_space.h"
 
 namespace sphparam {
 
@@ -26,6 +27,8 @@ Json input_json(const MeshSource& source);
 Json inspection_json(const MeshInspection& inspection);
 Json defect_json(const MeshDefect& defect);
 Json crossings_json(const SelfCrossings& crossings);
+/// Null where nobody looked.
+Json in_space_json(const std::optional<FacesInSpace>& found);
 Json repairs_json(const std::vector<RepairAction>& repairs);
 /// The loops that handles were cut along, in order.
 Json handles_json(const std::vector<HandleLoop>& loops);

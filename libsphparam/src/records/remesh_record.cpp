@@ -140,18 +140,6 @@ std::string level_lines(const RemeshRecord& record, double diagonal) {
   return lines;
 }
 
-/// Null where nobody looked.
-Json in_space_json(const LevelOfDetail& level) {
-  if (!level.in_space) return nullptr;
-  const FacesInSpace& found = *level.in_space;
-  return {{"triangles", found.faces},
-          {"area_share", found.area_share},
-          {"turned_over", found.turned_over},
-          {"concave_quads", found.concave_quads},
-          {"crossings", crossings_json(found.crossings)},
-          {"crossings_of_mesh", found.source_pairs}};
-}
-
 Json levels_json(const RemeshRecord& record) {
   Json json = Json::array();
   for (size_t i = 0; i < record.levels.size(); ++i) {
@@ -161,7 +149,7 @@ Json levels_json(const RemeshRecord& record) {
                     {"vertices", level.mesh.map().points.rows()},
                     {"faces", level.mesh.faces().count()},
                     {"triangles", level.mesh.mesh().face_count()},
-                    {"in_space", in_space_json(level)},
+                    {"in_space", in_space_json(level.in_space)},
                     {"rms", level.distance.value().rms},
                     {"max", level.distance.value().max}});
   }
@@ -239,7 +227,7 @@ std::string to_json(const RemeshRecord& record) {
   json["averaged_vertices"] = figures.averaged;
   json["carried"] = carried_by(finest.mesh.file());
   json["certified"] = true;
-  json["in_space"] = in_space_json(finest);
+  json["in_space"] = in_space_json(finest.in_space);
   json["warnings"] = warnings_of(record);
   if (finest.fit) json["subdivision"] = fit_json(*finest.fit, source_diagonal(record));
   if (record.layout) json["texture"] = layout_json(*record.layout);

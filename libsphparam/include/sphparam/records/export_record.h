@@ -16,7 +16,8 @@ struct ExportRecord {
   int lods_wanted = 0, lods = 0;          // coarser levels, asked for and there
   /// Of the coarser levels, from the mesh; none of those that it cannot be told of.
   std::vector<std::optional<LevelOfDetail::Distance>> distances = {};
-  double diagonal = 0;  // of the mesh: what distances are told against
+  std::vector<FacesInSpace> in_space = {};  // of the coarser levels
+  double diagonal = 0;                      // of the mesh: what distances are told against
   WrittenFiles outputs = {};
   std::vector<TextureFigures> textures = {};  // of what is seen, and of the variants
   double seconds = 0;
@@ -24,6 +25,9 @@ struct ExportRecord {
 
 /// As `sphparam export --json` tells it.
 std::string to_json(const ExportRecord& record);
+
+/// Coarser levels that cross themselves in space, a line each: not what is wrong with their charts.
+std::vector<std::string> warnings_of(const ExportRecord& record);
 
 /// For people: how near each coarser level is, a line each, if there are any.
 std::vector<std::string> level_lines(const ExportRecord& record);
