@@ -118,7 +118,9 @@ TEST_CASE("manifest: what was planned comes back, and its name is that of its by
 
 TEST_CASE("manifest: one that is cut off or another file is refused with the line") {
   const std::string text = manifest_text(plan_of_two());
-  CHECK_THROWS_AS(parse_manifest("ply\n", "plan.tsv"), ReadError);
+  for (const char* const other : {"ply\n", "", "\n"})
+    CHECK_THROWS_WITH(parse_manifest(other, "plan.tsv"),
+                      Contains("plan.tsv:1: this is no manifest of `sphparam batch plan`"));
   CHECK_THROWS_WITH(parse_manifest(text.substr(0, text.size() - 4), "plan.tsv"),
                     Contains("plan.tsv:6: an item that is not whole"));
   CHECK_THROWS_WITH(parse_manifest("#sphparam-batch\t1\n#colour\tred\n", "plan.tsv"),

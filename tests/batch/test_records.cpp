@@ -1,9 +1,13 @@
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
 #include <csignal>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "batch/content_hash.h"
 #include "batch/distribution.h"
@@ -131,6 +135,48 @@ TEST_CASE("staging: a process is known while it lives, and known to be gone afte
         (machine.ends_with('.') ? StagingOwner::Unknown : StagingOwner::IsGone));
   CHECK(owner_of_staging("x~elsewhere~12345678~1~2~3") == StagingOwner::Unknown);
   CHECK(owner_of_staging("x") == StagingOwner::Unknown);
+}
+
+TEST_CASE("record: whole seconds are seconds too") {
+  const BatchRecordHead head =
+      read_head(R"({"seconds":3,"cpu_seconds":4,"ended":5,"id":"x"})").value();
+  CHECK(head.seconds == 3);
+  CHECK(head.cpu_seconds == 4);
+  CHECK(head.ended == 5);
+}
+
+TEST_CASE("staging: a folder names the space that its process is numbered in") {
+  struct stat space {};
+  REQUIRE(::stat("/proc/self/ns/pid", &space) == 0);
+  const std::string numbered = "~" + std::to_string(space.st_ino) + "~" + std::to_string(getpid());
+  CHECK_THAT(staging_name("x"), Contains(numbered + "~"));
+}
+
+TEST_CASE("distribution: a plot has the ends, and quartiles where there is room between") {
+  const auto texts = [](const std::vector<std::optional<double>>& values) {
+    const std::string plot = distribution_plot(distribution_of(values), "title",
+                                               std::vector<std::string>(values.size(), "shape"));
+    std::vector<std::string> lines;
+    std::istringstream in(plot);
+    for (std::string line; std::getline(in, line);)
+      if (line.starts_with("<text ")) lines.push_back(line);
+    return lines;
+  };
+  const auto label = [](int x, const std::string& anchor, const std::string& text) {
+    return "<text x=\"" + std::to_string(x) + "\" y=\"200\" class=\"label\" text-anchor=\"" +
+           anchor + "\">" + text + "</text>";
+  };
+  const auto title = R"(<text x="16" y="20" class="title" text-anchor="start">title</text>)",
+             caption = R"(<text x="16" y="216" class="caption" text-anchor="start">5 shapes, )";
+  CHECK(texts({1, 2, 4, 8, 16}) ==
+        std::vector<std::string>{title, label(16, "start", "1"), label(624, "end", "16"),
+                                 label(320, "middle", "4"), label(168, "middle", "2"),
+                                 label(472, "middle", "8"),
+                                 std::string(caption) + "median 4; 0 outliers beyond 64</text>"});
+  CHECK(texts({1, 15.9, 16, 16.1, 256}) ==
+        std::vector<std::string>{title, label(16, "start", "1"), label(624, "end", "256"),
+                                 label(320, "middle", "16"),
+                                 std::string(caption) + "median 16; 1 outlier beyond 16.4</text>"});
 }
 
 TEST_CASE("distribution: quartiles, and what is far out of them") {

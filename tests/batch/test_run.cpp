@@ -6,6 +6,7 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include "sphparam/batch/inputs.h"
 #include "sphparam/batch/plan.h"
@@ -16,6 +17,28 @@
 namespace sphparam::tests {
 
 namespace fs = std::filesystem;
+
+TEST_CASE("run: a task does its own items, and leaves no file open") {
+  const Folder folder;
+  fs::create_directories(folder / "in");
+  for (const char* const name : {"a", "b", "c"})
+    std::ofstream(folder / "in" + "/" + name + ".obj") << "v 0 0 0\n";
+  const BatchPlan plan =
+      make_plan(find_batch_inputs({folder / "in"}), {.steps = {{"map"}}, .chunk = 1});
+  const auto open_files = [] {
+    return std::distance(fs::directory_iterator("/proc/self/fd"), fs::directory_iterator());
+  };
+  const auto before = open_files();
+  for (int task = 1; task <= 3; ++task) {
+    const BatchRunSummary summary = run_batch(
+        folder.path.string(), plan,
+        {.run_step = [](const BatchStep&, const BatchStepSetting&) { return 4; }, .task = task});
+    CHECK(summary.items == 1);
+    CHECK(summary.failed == 1);
+    CHECK(summary.first_failure == 4);
+  }
+  CHECK(open_files() == before);
+}
 
 TEST_CASE("run: where it ends with an error, nothing of it goes on unattended") {
   const Folder folder;

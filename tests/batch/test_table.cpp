@@ -43,6 +43,22 @@ TEST_CASE("table: how many warnings there are stands in a column") {
   CHECK(row[8] == std::pair<std::string, std::string>("warnings", "2"));
 }
 
+TEST_CASE("table: fields of a manifest are escaped, at the end of a line too") {
+  CHECK(tsv_fields("a\tb") == std::vector<std::string>{"a", "b"});
+  for (const std::string field : {"\t", "a\n", "\r\r", "b\\", "", "\\t"})
+    CHECK(tsv_fields(tsv_field(field)) == std::vector<std::string>{field});
+  CHECK(tsv_fields("a\\") == std::vector<std::string>{"a\\"});  // nothing follows
+}
+
+TEST_CASE("table: whole numbers keep all their digits, what is nothing has no column") {
+  BatchRecord record;
+  record.steps.push_back({{"map"}, 0, 1, R"({"large":9007199254740993,"none":null,"yes":true})"});
+  const auto row = row_of(record);
+  using Cell = std::pair<std::string, std::string>;
+  CHECK(row[9] == Cell("map.large", "9007199254740993"));
+  CHECK(row[10] == Cell("map.yes", "true"));
+}
+
 TEST_CASE("table: short lists of real numbers and entries with names have columns, no others") {
   BatchRecord record;
   record.steps.push_back({{"bake"}, 0, 1, R"({
