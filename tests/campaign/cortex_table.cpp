@@ -17,7 +17,6 @@
 #include <vector>
 
 #include "correspondence/feature_scales.h"
-#include "correspondence/surface_area.h"
 #include "correspondence/surface_roads.h"
 #include "mesh/surface_average.h"
 #include "mesh/triangle_geometry.h"
@@ -41,10 +40,7 @@ VectorX curvature(const MappedMesh& m, int threads) {
 VectorX depth(const MappedMesh& m) {
   const TriangleMesh& mesh = m.mesh();
   VectorX faces(mesh.face_count());
-  for (Face f = 0; f < mesh.face_count(); ++f) {
-    const auto corner = [&](int k) { return mesh.position(mesh.triangles(f, k)); };
-    faces[f] = triangle_area(corner(0), corner(1), corner(2));
-  }
+  for (Face f = 0; f < mesh.face_count(); ++f) faces[f] = face_area(mesh, f);
   const VectorX area = vertex_areas(mesh);
   const SurfaceAverage average(mesh, m.topology(), faces, area, depth_scale);
   Points smooth(mesh.vertex_count(), 3);

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "bake/connected_faces.h"
+#include "mesh/triangle_geometry.h"
 
 namespace sphparam {
 namespace {
@@ -18,11 +19,6 @@ std::string material_of(const MeshFile& file, Face f) {
   return known ? file.materials[static_cast<size_t>(id)] : "";
 }
 
-double area_of(const TriangleMesh& mesh, Face f) {
-  const auto corner = [&](int k) { return mesh.position(mesh.triangles(f, k)); };
-  return (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm() / 2;
-}
-
 /// With areas as shares of all, and no texels.
 std::vector<PartTexels> parts_of(const MeshFile& file, const std::vector<int>& part_of) {
   std::vector<PartTexels> parts;
@@ -31,8 +27,8 @@ std::vector<PartTexels> parts_of(const MeshFile& file, const std::vector<int>& p
     const auto part = static_cast<size_t>(part_of[static_cast<size_t>(f)]);
     if (part == parts.size()) parts.push_back({.material = material_of(file, f)});
     parts[part].triangles += 1;
-    parts[part].area += area_of(file.mesh, f);
-    area += area_of(file.mesh, f);
+    parts[part].area += face_area(file.mesh, f);
+    area += face_area(file.mesh, f);
   }
   for (PartTexels& part : parts) part.area = area > 0 ? part.area / area : 0;
   return parts;

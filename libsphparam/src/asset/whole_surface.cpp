@@ -11,6 +11,7 @@
 #include "io/attributes/remarks.h"
 #include "io/inspected_source.h"
 #include "mesh/box.h"
+#include "mesh/triangle_geometry.h"
 #include "number_text.h"
 #include "option_domain.h"
 #include "sphparam/chart/spherical_chart.h"
@@ -39,7 +40,7 @@ bool is_flat(const TriangleMesh& mesh) {
     const Vector3 a = mesh.position(f[0]) - centre, b = mesh.position(f[1]) - centre,
                   c = mesh.position(f[2]) - centre;
     volume += a.dot(b.cross(c)) / 6;
-    area += (b - a).cross(c - a).norm() / 2;
+    area += triangle_area(a, b, c);
   }
   return std::abs(volume) <= hardly * area * std::sqrt(area);
 }
@@ -56,8 +57,7 @@ FillerMarks far_faces(const Wrap& wrap) {
 double area_share(const TriangleMesh& mesh, const FillerMarks& marked) {
   double all = 0, theirs = 0;
   for (Face f = 0; f < mesh.face_count(); ++f) {
-    const auto corner = [&](int k) { return mesh.position(mesh.triangles(f, k)); };
-    const double area = (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
+    const double area = face_area(mesh, f);
     all += area;
     if (marked[static_cast<size_t>(f)]) theirs += area;
   }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mesh/flat_face.h"
+#include "mesh/enclosed_volume.h"
 #include "sphparam/io/mapped_mesh.h"
 
 namespace sphparam {

@@ -11,6 +11,7 @@
 #include <limits>
 #include <utility>
 
+#include "mesh/triangle_geometry.h"
 #include "rays/flat_normal.h"
 #include "rays/interpolation.h"
 #include "sphparam/io/fillers.h"
@@ -218,7 +219,7 @@ Probe probe(const ProjectedSurface& surface, const BakeTarget& target, Face f,
     return target.positions.row(target.chart.triangles(f, k));
   };
   const Vector3 from = (corner(0) + corner(1) + corner(2)) / 3;
-  return {(corner(1) - corner(0)).cross(corner(2) - corner(0)).norm() / 2,
+  return {triangle_area(corner(0), corner(1), corner(2)),
           (Triangle(surface.file().mesh, run.face).at(run.first) - from).norm(), run.found};
 }
 

@@ -6,6 +6,7 @@
 #include "baselines/equal_areas.h"
 #include "baselines/harmless_mesh.h"
 #include "baselines/outcome.h"
+#include "mesh/triangle_geometry.h"
 #include "option_domain.h"
 #include "sphparam/sphere/spherical_coordinates.h"
 
@@ -45,9 +46,7 @@ std::vector<double> area_shares(const TriangleMesh& mesh) {
   std::vector<double> shares;
   double total = 0;
   for (Face f = 0; f < mesh.face_count(); ++f) {
-    const auto t = mesh.triangles.row(f);
-    const Vector3 p = mesh.position(t[0]);
-    shares.push_back((mesh.position(t[1]) - p).cross(mesh.position(t[2]) - p).norm());
+    shares.push_back(face_area(mesh, f));
     total += shares.back();
   }
   const double least = total > 0 ? least_share * total / double(shares.size()) : 1;

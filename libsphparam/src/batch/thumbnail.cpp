@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "io/files/png.h"
+#include "mesh/triangle_geometry.h"
 #include "render/heat.h"
 #include "sphparam/io/up_axis.h"
 
@@ -22,9 +23,8 @@ constexpr double margin = 1.06;  // of the picture around what is drawn
 /// What a triangle's area on the sphere is to that on the mesh, each as a share of the whole.
 VectorX area_ratios(const TriangleMesh& mesh, const Points& rays) {
   const auto double_area = [&](const Points& points, Eigen::Index f) {
-    const Vector3 a = points.row(mesh.triangles(f, 0)), b = points.row(mesh.triangles(f, 1)),
-                  c = points.row(mesh.triangles(f, 2));
-    return (b - a).cross(c - a).norm();
+    return doubled_area(points.row(mesh.triangles(f, 0)), points.row(mesh.triangles(f, 1)),
+                        points.row(mesh.triangles(f, 2)));
   };
   VectorX before(mesh.face_count()), after(mesh.face_count());
   for (Eigen::Index f = 0; f < mesh.face_count(); ++f) {

@@ -3,9 +3,10 @@
 #include <cmath>
 #include <cstdint>
 
-#include "correspondence/surface_area.h"
+#include "correspondence/matchable.h"
 #include "embedding/frame/nearest_rotation.h"
 #include "io/attributes/shading_normals.h"
+#include "mesh/triangle_geometry.h"
 #include "option_domain.h"
 #include "sphparam/measure/surface_distance.h"
 #include "sphparam/mesh/vertex_areas.h"

@@ -9,10 +9,10 @@
 
 #include "correspondence/composition_newton.h"
 #include "correspondence/ring_insertion.h"
-#include "correspondence/surface_area.h"
 #include "embedding/constructions/progressive.h"
 #include "embedding/frame/nearest_rotation.h"
 #include "embedding/sweeps/kernel_placement.h"
+#include "mesh/triangle_geometry.h"
 #include "sphparam/parallel.h"
 
 // A coarse level of the source gets a map of its own that has the landmarks where they belong; on

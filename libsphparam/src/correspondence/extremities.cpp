@@ -6,7 +6,6 @@
 #include <limits>
 #include <numeric>
 
-#include "correspondence/surface_area.h"
 #include "correspondence/surface_roads.h"
 #include "sphparam/mesh/vertex_areas.h"
 #include "sphparam/parallel.h"

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "correspondence/bounded_curvature.h"
-#include "correspondence/surface_area.h"
+#include "correspondence/stance.h"
 #include "correspondence/turned_starts.h"
 #include "embedding/frame/nearest_rotation.h"
 #include "sphparam/correspondence/map_alignment.h"

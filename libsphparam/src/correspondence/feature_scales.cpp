@@ -4,10 +4,9 @@
 #include <cmath>
 #include <vector>
 
-#include "correspondence/surface_area.h"
 #include "elementary.h"
-#include "mesh/flat_face.h"
 #include "mesh/surface_average.h"
+#include "mesh/triangle_geometry.h"
 #include "sphparam/mesh/vertex_areas.h"
 
 namespace sphparam {

@@ -9,7 +9,7 @@
 #include "correspondence/bounded_curvature.h"
 #include "correspondence/end_pairings.h"
 #include "correspondence/extremities.h"
-#include "correspondence/surface_area.h"
+#include "correspondence/stance.h"
 #include "mesh/mesh_hierarchy.h"
 #include "sphparam/mesh/curvature.h"
 #include "sphparam/parallel.h"

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "correspondence/coarse_to_fine.h"
+#include "correspondence/matchable.h"
 #include "correspondence/near_places.h"
-#include "correspondence/surface_area.h"
 #include "number_text.h"
 #include "sphparam/correspondence/surface_map.h"
 #include "sphparam/measure/measurable.h"

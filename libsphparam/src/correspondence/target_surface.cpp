@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "correspondence/surface_area.h"
 #include "mesh/flat_face.h"
+#include "mesh/triangle_geometry.h"
 #include "mesh/vertex_normals.h"
 #include "sphparam/errors.h"
 

@@ -32,16 +32,6 @@ double cap_angle(const TriangleMesh& mesh, const Topology& topology, Vertex pole
   return std::clamp(elementary::acos(1 - 2 * share), least, greatest);
 }
 
-double surface_area(const TriangleMesh& mesh) {
-  double area = 0;
-  for (Face f = 0; f < mesh.face_count(); ++f) {
-    const auto t = mesh.triangles.row(f);
-    const Vector3 p = mesh.position(t[0]);
-    area += 0.5 * (mesh.position(t[1]) - p).cross(mesh.position(t[2]) - p).norm();
-  }
-  return area;
-}
-
 ChartBoundary boundary_for(const TriangleMesh& mesh, const Topology& topology,
                            const CutMesh& cut_mesh, double epsilon) {
   if (epsilon > 0) return cylinder_boundary(mesh, cut_mesh, epsilon, epsilon);

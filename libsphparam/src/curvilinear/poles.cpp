@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "edge_graph.h"
+#include "mesh/triangle_geometry.h"
 #include "option_domain.h"
 
 // Farthest pair: the vertex a farthest from any one, b farthest from a, then c farthest from b; on
@@ -82,7 +83,7 @@ Vector3 middle_of(const TriangleMesh& mesh, double scale) {
       return scale * mesh.position(mesh.triangles(f, k));
     };
     const Vector3 a = corner(0), b = corner(1), c = corner(2);
-    const double weight = (b - a).cross(c - a).norm();
+    const double weight = doubled_area(a, b, c);
     sum += weight * (a + b + c) / 3;
     area += weight;
     corners += (a + b + c) / 3;

@@ -33,10 +33,8 @@ double fill_and_sum(std::vector<double>& values, int threads, OfFace&& of_face) 
 std::vector<double> area_distortion(const TriangleMesh& mesh, const SphereMap& map, int threads) {
   const double faces = static_cast<double>(mesh.face_count());
   std::vector<double> source(static_cast<size_t>(mesh.face_count())), kappa(source.size());
-  const double source_sum = fill_and_sum(source, threads, [&](Face f) {
-    const auto t = mesh.triangles.row(f);
-    return triangle_area(mesh.position(t[0]), mesh.position(t[1]), mesh.position(t[2]));
-  });
+  const double source_sum =
+      fill_and_sum(source, threads, [&](Face f) { return face_area(mesh, f); });
   const double sphere_sum = fill_and_sum(kappa, threads, [&](Face f) {
     const auto t = mesh.triangles.row(f);
     return std::abs(solid_angle(map.point(t[0]), map.point(t[1]), map.point(t[2])));

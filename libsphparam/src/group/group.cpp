@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "correspondence/surface_area.h"
+#include "correspondence/matchable.h"
 #include "embedding/energy/energy_domain.h"
 #include "group/group_scalars.h"
 #include "group/into_correspondence.h"

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "correspondence/surface_area.h"
+#include "correspondence/matchable.h"
+#include "correspondence/stance.h"
 #include "number_text.h"
 #include "sphparam/correspondence/map_alignment.h"
 #include "sphparam/sphere/first_order_alignment.h"

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "mesh/triangle_geometry.h"
+
 // Over a triangle of area A with corners pᵢ, ∫ x = A Σ pᵢ / 3 and, of corners qᵢ = pᵢ − c,
 // ∫ |x − c|² = A (Σ |qᵢ|² + |Σ qᵢ|²) / 12. All from the first corner and in lengths of the
 // box about it: far from the origin nothing is lost, and no square is out of range.
@@ -12,8 +14,7 @@ namespace {
 using Corners = Eigen::Matrix3d;  // a row a corner
 
 double area_of(const Corners& corners) {
-  const Vector3 a = corners.row(1) - corners.row(0), b = corners.row(2) - corners.row(0);
-  return a.cross(b).norm() / 2;
+  return triangle_area(corners.row(0), corners.row(1), corners.row(2));
 }
 
 }  // namespace

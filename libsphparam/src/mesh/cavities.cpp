@@ -66,7 +66,7 @@ std::vector<Part> parts_of(const TriangleMesh& mesh) {
     const auto corner = [&](int k) { return mesh.position(mesh.triangles(f, k)); };
     part.lowest = lowest;
     part.faces.push_back(f);
-    part.area += triangle_area(corner(0), corner(1), corner(2));
+    part.area += face_area(mesh, f);
     part.volume += corner(0).dot(corner(1).cross(corner(2))) / 6;
   }
   if (by_lowest.size() > 1) find_open_parts(mesh, classes, by_lowest);

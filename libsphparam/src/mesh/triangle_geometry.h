@@ -21,4 +21,15 @@ inline double triangle_area(const Vector3& a, const Vector3& b, const Vector3& c
   return doubled_area(a, b, c) / 2;
 }
 
+inline double face_area(const TriangleMesh& mesh, Face face) {
+  const auto corner = [&](int k) { return mesh.position(mesh.triangles(face, k)); };
+  return triangle_area(corner(0), corner(1), corner(2));
+}
+/// The sum is in the order of the faces.
+inline double surface_area(const TriangleMesh& mesh) {
+  double area = 0;
+  for (Face f = 0; f < mesh.face_count(); ++f) area += face_area(mesh, f);
+  return area;
+}
+
 }  // namespace sphparam

@@ -1,6 +1,6 @@
 #include "sphparam/mesh/vertex_areas.h"
 
-#include "mesh/flat_face.h"
+#include "mesh/triangle_geometry.h"
 
 namespace sphparam {
 

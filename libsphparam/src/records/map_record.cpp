@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "io/attributes/corner_colours.h"
-#include "mesh/flat_face.h"
+#include "mesh/enclosed_volume.h"
 #include "mesh/unit_size.h"
 #include "records/json_parts.h"
 #include "sphparam/io/file_numbers.h"

@@ -163,9 +163,7 @@ class Scene {
       for (int k = 1; k < 3; ++k) classes.unite(mesh_.triangles(f, 0), mesh_.triangles(f, k));
     std::map<int, double> areas;
     for (Face f = 0; f < mesh_.face_count(); ++f)
-      areas[classes.find(mesh_.triangles(f, 0))] += triangle_area(
-          mesh_.position(mesh_.triangles(f, 0)), mesh_.position(mesh_.triangles(f, 1)),
-          mesh_.position(mesh_.triangles(f, 2)));
+      areas[classes.find(mesh_.triangles(f, 0))] += face_area(mesh_, f);
     const auto largest = std::max_element(areas.begin(), areas.end(),
                                           [](auto& x, auto& y) { return x.second < y.second; });
     for (Vertex v = 0; v < own; ++v)

@@ -9,7 +9,7 @@
 #include "call.h"
 #include "io/inspected_source.h"
 #include "map_request.h"
-#include "mesh/flat_face.h"
+#include "mesh/enclosed_volume.h"
 #include "sphere/radius.h"
 #include "sphparam/frame_check.h"
 #include "sphparam/io/certified_files.h"

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "bake/projected_surface.h"
+#include "mesh/triangle_geometry.h"
 #include "rays/flat_normal.h"
 #include "rays/interpolation.h"
 #include "sphparam/parallel.h"
@@ -33,7 +34,7 @@ std::vector<double> areas_of(const BakeTarget& target) {
   for (const auto& f : target.chart.triangles.rowwise()) {
     const Vector3 a = target.positions.row(f[0]), b = target.positions.row(f[1]),
                   c = target.positions.row(f[2]);
-    areas.push_back((b - a).cross(c - a).norm() / 2);
+    areas.push_back(triangle_area(a, b, c));
   }
   return areas;
 }

@@ -9,6 +9,7 @@
 
 #include "bake/chart_piece.h"
 #include "bake/texels/calm_walls.h"
+#include "mesh/triangle_geometry.h"
 
 namespace sphparam {
 namespace {
@@ -188,7 +189,7 @@ class Collector {
     const auto corner = [&](int k) -> Vector3 {
       return scale_ * target_.positions.row(target_.chart.triangles(f, k));
     };
-    return (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm() / 2;
+    return triangle_area(corner(0), corner(1), corner(2));
   }
 
   const BakeTarget& target_;

@@ -23,9 +23,7 @@ std::vector<double> areas_of(const MeshFile& file) {
     if (!fillers.empty() && fillers[at]) continue;
     const double id = material ? material->values[at] : -1;
     const bool known = id >= 0 && id < static_cast<double>(file.channels.size());
-    const auto corner = [&](int k) { return file.mesh.position(file.mesh.triangles(f, k)); };
-    areas[known ? static_cast<std::size_t>(id) : file.channels.size()] +=
-        triangle_area(corner(0), corner(1), corner(2));
+    areas[known ? static_cast<std::size_t>(id) : file.channels.size()] += face_area(file.mesh, f);
   }
   return areas;
 }

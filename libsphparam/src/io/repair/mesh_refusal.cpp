@@ -140,9 +140,7 @@ double added_share(const RepairedMesh& mended) {
   const TriangleMesh& mesh = mended.mesh;
   for (Face f = 0; f < static_cast<Face>(mesh.face_count()); ++f) {
     if (!mended.fillers.empty() && mended.fillers[f]) continue;
-    const Triangles& faces = mesh.triangles;
-    const double of_face = triangle_area(mesh.position(faces(f, 0)), mesh.position(faces(f, 1)),
-                                         mesh.position(faces(f, 2)));
+    const double of_face = face_area(mesh, f);
     area += of_face;
     if (mended.face_origin[f] < 0) added += of_face;
   }

@@ -5,6 +5,7 @@
 
 #include "io/shell_word.h"
 #include "mesh/box.h"
+#include "mesh/enclosed_volume.h"
 #include "mesh/face_sides.h"
 #include "mesh/flat_face.h"
 #include "number_text.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "mesh/flat_face.h"
+#include "mesh/enclosed_volume.h"
 #include "mesh/index_range.h"
 #include "mesh/repair/repair_state.h"
 #include "mesh/triangle_geometry.h"

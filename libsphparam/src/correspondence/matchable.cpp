@@ -1,25 +1,12 @@
-#include "correspondence/surface_area.h"
+#include "correspondence/matchable.h"
 
 #include <cmath>
 
-#include "mesh/flat_face.h"
+#include "mesh/enclosed_volume.h"
+#include "mesh/triangle_geometry.h"
 #include "sphparam/errors.h"
-#include "sphparam/mesh/vertex_areas.h"
 
 namespace sphparam {
-
-double surface_area(const TriangleMesh& mesh) {
-  double area = 0;
-  for (Face f = 0; f < mesh.face_count(); ++f) area += face_area(mesh, f);
-  return area;
-}
-
-Points stance_of(const TriangleMesh& mesh) {
-  const VectorX share = vertex_areas(mesh);
-  const double area = share.sum();
-  const Eigen::RowVector3d centre = share.transpose() * mesh.positions / area;
-  return (mesh.positions.rowwise() - centre) / std::sqrt(area);
-}
 
 void require_area(const MappedMesh& mapped) {
   const double area = surface_area(mapped.surface());

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "mesh/flat_face.h"
+#include "mesh/enclosed_volume.h"
 #include "support/test_meshes.h"
 
 namespace sphparam::tests {
