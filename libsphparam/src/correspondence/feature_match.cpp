@@ -46,18 +46,6 @@ FeatureTurns turns_by_features(const MappedMesh& from, const MappedMesh& to,
           turns_by_correlation(-here, there, 1, threads).front().correlation};
 }
 
-/// Whether a feature is known on clearly more of one side than of the other. Parts that both leave
-/// out are taken to be the same: where these lie tells the turn, too.
-bool is_one_sided(const MatchFeatures& features, const MappedMesh& from, const MappedMesh& to) {
-  const VectorX from_area = vertex_areas(from.surface());
-  const VectorX to_area = vertex_areas(to.surface());
-  for (Eigen::Index c = 0; c < features.from.cols(); ++c)
-    if (std::abs(known_share(features.from.col(c), from_area) -
-                 known_share(features.to.col(c), to_area)) > telling_share)
-      return true;
-  return false;
-}
-
 /// What is known of features; `values`: these, centred and cut.
 PartlyKnown known_part(const MappedMesh& mapped, const Functions& features, const Functions& values,
                        int threads) {
@@ -195,7 +183,7 @@ class FeatureMatching {
         to_sphere_(sphere_of(to)),
         scales_(from_sphere_, from.topology(), to_sphere_, to.topology(), features),
         shared_(from, to, from_sphere_, to_sphere_, features),
-        one_sided_(is_one_sided(features, from, to)),
+        one_sided_(one_sided_feature(features, from, to).has_value()),
         options_(with_features(options, scales_)),
         on_sphere_(to, to_sphere_.positions),
         way_(from_sphere_, from.topology(), on_sphere_, options_) {}
@@ -281,7 +269,7 @@ class FeatureMatching {
   const TriangleMesh from_sphere_, to_sphere_;
   const FeatureScales scales_;
   SharedFeatures shared_;
-  const bool one_sided_;
+  const bool one_sided_;     // parts that both leave out tell the turn, too: they are the same
   ComposedOptions options_;  // with the features that are compared
   const TargetSurface on_sphere_;
   CoarseToFine way_;

@@ -15,6 +15,7 @@ namespace {
 constexpr double wild = 3;                             // spreads
 constexpr double low_share = 0.16, high_share = 0.84;  // one standard deviation of a normal one
 constexpr double least_share = 1e-9;                   // of the mean area of a vertex
+constexpr double telling_share = 0.03;                 // of the area, known on one side alone
 
 VectorX face_areas(const TriangleMesh& mesh) {
   VectorX areas(mesh.face_count());
@@ -67,6 +68,11 @@ void standardise(Functions& values, const VectorX& area) {
   }
 }
 
+/// The share of the area of vertices at which a column has a finite number.
+double known_share(const VectorX& values, const VectorX& area) {
+  return values.array().isFinite().select(area, 0.0).sum() / area.sum();
+}
+
 }  // namespace
 
 FeatureScales::Side FeatureScales::side_of(const TriangleMesh& mesh, const Topology& topology,
@@ -117,8 +123,16 @@ bool varies(const VectorX& values) {
                      [&](double x) { return std::isfinite(x) && x != *first; });
 }
 
-double known_share(const VectorX& values, const VectorX& area) {
-  return values.array().isFinite().select(area, 0.0).sum() / area.sum();
+std::optional<OneSidedFeature> one_sided_feature(const MatchFeatures& features,
+                                                 const MappedMesh& from, const MappedMesh& to) {
+  const VectorX from_area = vertex_areas(from.surface());
+  const VectorX to_area = vertex_areas(to.surface());
+  for (Eigen::Index c = 0; c < features.from.cols(); ++c) {
+    const double here = known_share(features.from.col(c), from_area);
+    const double there = known_share(features.to.col(c), to_area);
+    if (std::abs(here - there) > telling_share) return OneSidedFeature{c, here, there};
+  }
+  return std::nullopt;
 }
 
 double correlation_of(const Functions& a, const Functions& b, const VectorX& area) {

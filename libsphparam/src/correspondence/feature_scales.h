@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 
 #include "sphparam/correspondence/match.h"
 #include "sphparam/mesh/topology.h"
@@ -51,10 +52,15 @@ class FeatureScales {
 /// Whether finite values of it differ.
 bool varies(const VectorX& values);
 
-/// The share of the area of vertices at which a column has a finite number.
-double known_share(const VectorX& values, const VectorX& area);
+/// A column of features that has finite numbers on clearly more of one surface than of the other.
+struct OneSidedFeature {
+  Eigen::Index column;
+  double here, there;  // the shares of the areas where it has
+};
 
-constexpr double telling_share = 0.03;  // of the area, known on one side alone: worth a word
+/// The first of them; nothing where there is none.
+std::optional<OneSidedFeature> one_sided_feature(const MatchFeatures& features,
+                                                 const MappedMesh& from, const MappedMesh& to);
 
 /// Correlation of columns over a surface with these areas of its vertices: their mean.
 double correlation_of(const Functions& a, const Functions& b, const VectorX& area);

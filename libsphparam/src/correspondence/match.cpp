@@ -16,7 +16,6 @@
 #include "embedding/energy/energy_domain.h"
 #include "number_text.h"
 #include "option_domain.h"
-#include "sphparam/mesh/vertex_areas.h"
 #include "sphparam/version.h"
 
 // Two starts. The map that `from` has, turned so that the landmarks fit, where they fit all but
@@ -100,20 +99,13 @@ std::optional<std::string> collapse_of(const SurfaceMap& map, int threads) {
 }
 
 /// A feature that is known of more of one surface than of the other.
-std::optional<std::string> one_sided(const MatchFeatures& features, const MappedMesh& from,
-                                     const MappedMesh& to) {
-  const VectorX from_area = vertex_areas(from.surface());
-  const VectorX to_area = vertex_areas(to.surface());
-  for (Eigen::Index c = 0; c < features.from.cols(); ++c) {
-    const double here = known_share(features.from.col(c), from_area);
-    const double there = known_share(features.to.col(c), to_area);
-    if (std::abs(here - there) > telling_share)
-      return "feature " + std::to_string(c + 1) + " is known on " + percent(here) + " of " +
-             from.name() + " and on " + percent(there) + " of " + to.name() +
-             ": it is compared where both are known, as far as that can be told: look at the "
-             "result";
-  }
-  return std::nullopt;
+std::optional<std::string> one_sided_line(const MatchFeatures& features, const MappedMesh& from,
+                                          const MappedMesh& to) {
+  const std::optional<OneSidedFeature> found = one_sided_feature(features, from, to);
+  if (!found) return std::nullopt;
+  return "feature " + std::to_string(found->column + 1) + " is known on " + percent(found->here) +
+         " of " + from.name() + " and on " + percent(found->there) + " of " + to.name() +
+         ": it is compared where both are known, as far as that can be told: look at the result";
 }
 
 /// Features whose signs mean the opposite on the two sides.
@@ -189,7 +181,7 @@ class Matcher {
   /// Throws: UnreachableLandmarks; MirroredLandmarks.
   SphereMap by_features() {
     made_by_ = "features";
-    warn(one_sided(*options_.features, from_, to_));
+    warn(one_sided_line(*options_.features, from_, to_));
     if (!composed_.landmarks.empty()) warn(suspicion_of_sides());
     FeatureMatch found =
         match_by_features(from_, to_, target_, composed_, *options_.features, options_.alike);
