@@ -10,6 +10,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "free_name.h"
 #include "io/data_comments.h"
 #include "io/formats/gifti/gifti_labels.h"
 #include "io/formats/lossless_type.h"
@@ -19,6 +20,7 @@
 #include "sphparam/io/fillers.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/vertex_data.h"
+#include "take_word.h"
 
 namespace sphparam {
 namespace {
@@ -60,13 +62,6 @@ std::string from_word(std::string_view word) {
     }
   }
   return text;
-}
-
-std::string_view take_word(std::string_view& text) {
-  const std::size_t blank = std::min(text.find(' '), text.size());
-  const std::string_view word = text.substr(0, blank);
-  text.remove_prefix(std::min(blank + 1, text.size()));
-  return word;
 }
 
 /// A comment of ours, taken apart.
@@ -137,16 +132,10 @@ bool has_a_role(std::string_view name) {
 }
 
 /// What formats take for a name, and unlike those that are there.
-std::string free_name(const MeshFile& mesh, std::string name) {
-  for (char& c : name)
-    if (c <= ' ' || c > '~') c = '_';
-  const auto taken = [&](const std::string& candidate) {
-    return has_a_role(candidate) || mesh.find_vertex_property(candidate);
-  };
-  if (!taken(name)) return name;
-  int number = 2;
-  while (taken(name + "_" + std::to_string(number))) ++number;
-  return name + "_" + std::to_string(number);
+std::string new_property_name(const MeshFile& mesh, const std::string& wanted) {
+  return free_name(printable_name(wanted), [&](const std::string& name) {
+    return has_a_role(name) || mesh.find_vertex_property(name);
+  });
 }
 
 std::string wanted_name(const VertexData& data, std::size_t k) {
@@ -171,10 +160,7 @@ std::string name_of_its_own(const MeshFile& mesh, DataKind kind, const std::stri
     if (!line || line->what != "file") continue;
     if (take_word(line->rest) == word_of(kind)) names.insert(from_word(line->rest));
   }
-  if (!names.contains(name)) return name;
-  int number = 2;
-  while (names.contains(name + "_" + std::to_string(number))) ++number;
-  return name + "_" + std::to_string(number);
+  return free_name(name, [&](const std::string& candidate) { return names.contains(candidate); });
 }
 
 /// What begins a file among the comments of a mesh, without its head.
@@ -271,7 +257,7 @@ std::vector<std::string> attach_data(MeshFile& mesh, const VertexData& data) {
   std::vector<std::string> names;
   for (std::size_t k = 0; k < properties.size(); ++k) {
     const DataColumn& column = data.columns[k];
-    names.push_back(free_name(mesh, wanted_name(data, k)));
+    names.push_back(new_property_name(mesh, wanted_name(data, k)));
     properties[k].name = names.back();
     mesh.vertex_properties.push_back(std::move(properties[k]));
     mesh.comments.push_back(head + "column " + as_word(names.back()) + " " +

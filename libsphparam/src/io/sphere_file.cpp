@@ -7,6 +7,7 @@
 
 #include "io/formats/freesurfer_comments.h"
 #include "sphparam/sphere/spherical_coordinates.h"
+#include "take_word.h"
 
 // sx, sy, sz are what is certified; theta and phi are derived from them for the convenience of
 // viewers, and cannot hold the seam (0 and 2π are one longitude).
@@ -90,9 +91,8 @@ Provenance read_provenance(const MeshFile& file) {
   for (std::string_view comment : file.comments) {
     if (!comment.starts_with(prefix)) continue;
     comment.remove_prefix(prefix.size());
-    const std::size_t blank = std::min(comment.find(' '), comment.size());
-    provenance.emplace_back(comment.substr(0, blank),
-                            comment.substr(std::min(blank + 1, comment.size())));
+    const std::string_view key = take_word(comment);
+    provenance.emplace_back(key, comment);
   }
   return provenance;
 }

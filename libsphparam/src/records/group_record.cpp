@@ -8,6 +8,7 @@
 #include <set>
 #include <string_view>
 
+#include "free_name.h"
 #include "mesh/vertex_normals.h"
 #include "number_text.h"
 #include "records/json_parts.h"
@@ -204,10 +205,9 @@ std::vector<std::string> names_of_shapes(const std::vector<std::string>& files) 
   std::set<std::string> taken;
   std::vector<std::string> names;
   for (const std::string& file : files) {
-    const std::string stem = is_stream(file) ? "stdin" : name_of_shape(file);
-    std::string name = stem;
-    for (int k = 2; !taken.insert(name).second; ++k) name = stem + "_" + std::to_string(k);
-    names.push_back(name);
+    const std::string name = is_stream(file) ? "stdin" : name_of_shape(file);
+    names.push_back(free_name(name, [&](const std::string& one) { return taken.contains(one); }));
+    taken.insert(names.back());
   }
   return names;
 }

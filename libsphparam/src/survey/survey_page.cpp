@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <set>
 
+#include "free_name.h"
 #include "io/shell_word.h"
 #include "io/uri.h"
 #include "number_text.h"
@@ -64,8 +65,9 @@ std::vector<std::string> names_of_maps(const Survey& survey) {
     const std::filesystem::path folder = std::filesystem::path(mesh.name).parent_path();
     std::string stem = (folder / stem_of(mesh.name)).string();
     std::ranges::replace(stem, '/', '_');
-    std::string name = stem;
-    for (int k = 2; !taken.insert(name).second; ++k) name = stem + "_" + std::to_string(k);
+    const std::string name =
+        free_name(stem, [&](const std::string& one) { return taken.contains(one); });
+    taken.insert(name);
     names.push_back(name + ".sph.ply");
   }
   return names;

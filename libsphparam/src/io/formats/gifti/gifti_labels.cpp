@@ -6,19 +6,12 @@
 
 #include "parsed_number.h"
 #include "sphparam/io/mesh_file.h"
+#include "take_word.h"
 
 namespace sphparam {
 namespace {
 
 constexpr std::string_view prefix = "gifti label ";
-
-/// The text up to the next blank, which is taken off the front with it.
-std::string_view take_word(std::string_view& text) {
-  const std::size_t blank = std::min(text.find(' '), text.size());
-  const std::string_view word = text.substr(0, blank);
-  text.remove_prefix(std::min(blank + 1, text.size()));
-  return word;
-}
 
 std::string shortest(float number) {
   char digits[32];

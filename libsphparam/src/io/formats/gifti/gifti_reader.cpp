@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <locale>
 #include <sstream>
 
+#include "free_name.h"
 #include "io/files/non_finite_advice.h"
 #include "io/formats/freesurfer_comments.h"
 #include "io/formats/gifti/gifti_data.h"
@@ -135,17 +135,11 @@ class GiftiReader {
     constexpr std::size_t longest_allowed = 64;
     std::string name = value_of(array.metadata, "Name");
     if (name.empty()) name = array.intent.substr(array.intent.starts_with(prefix) * prefix.size());
-    name = one_line(name.substr(0, longest_allowed));
-    for (char& c : name)
-      if (!std::isgraph(static_cast<unsigned char>(c))) c = '_';
-    const auto taken = [this](const std::string& candidate) {
+    name = printable_name(one_line(name.substr(0, longest_allowed)));
+    return free_name(name, [this](const std::string& candidate) {
       return candidate.empty() || candidate == "x" || candidate == "y" || candidate == "z" ||
              file_.find_vertex_property(candidate);
-    };
-    if (!taken(name)) return name;
-    int number = 2;
-    while (taken(name + "_" + std::to_string(number))) ++number;
-    return name + "_" + std::to_string(number);
+    });
   }
 
   static std::string value_of(const Metadata& metadata, std::string_view key) {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 
+#include "free_name.h"
 #include "io/files/float32_digits.h"
 #include "io/files/non_finite_advice.h"
 #include "io/formats/lossless_type.h"
@@ -80,23 +80,16 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 }
 
 /// A name that every format can keep, unlike those that are there and those that are kept free.
-std::string free_name(const std::vector<Property>& properties, std::string name,
-                      const std::vector<std::string>& kept_free) {
+std::string new_property_name(const std::vector<Property>& properties, const std::string& wanted,
+                              const std::vector<std::string>& kept_free) {
   constexpr std::size_t longest_allowed = 64;
-  name = name.substr(0, longest_allowed);
-  for (char& c : name)
-    if (!std::isgraph(static_cast<unsigned char>(c))) c = '_';
-  const auto taken = [&](const std::string& candidate) {
-    return candidate.empty() || candidate == "x" || candidate == "y" || candidate == "z" ||
+  const std::string name = printable_name(wanted.substr(0, longest_allowed));
+  return free_name(name.empty() ? "array" : name, [&](const std::string& candidate) {
+    return candidate == "x" || candidate == "y" || candidate == "z" ||
            contains(kept_free, candidate) ||
            std::any_of(properties.begin(), properties.end(),
                        [&](const Property& property) { return property.name == candidate; });
-  };
-  if (name.empty()) name = "array";
-  if (!taken(name)) return name;
-  int number = 2;
-  while (taken(name + "_" + std::to_string(number))) ++number;
-  return name + "_" + std::to_string(number);
+  });
 }
 
 /// Arrays that are called otherwise now, a line each.
@@ -147,7 +140,7 @@ void adopt(const VtkArray& array, std::int64_t count, const std::vector<std::str
   for (std::size_t k = 0; k < kept; ++k) {
     const std::string expected = component_name(array, k, known);
     const std::vector<std::string> kept_free = known ? std::vector<std::string>() : of_vectors;
-    Property property{free_name(properties, expected, kept_free), array.type, {}};
+    Property property{new_property_name(properties, expected, kept_free), array.type, {}};
     if (property.name != expected || (known && !is_named_so(array, *known)))
       names.push_back(property.name);
     property.values.reserve(static_cast<std::size_t>(count));
