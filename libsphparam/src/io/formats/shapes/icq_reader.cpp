@@ -66,7 +66,8 @@ class IcqReader {
  private:
   void read_size() {
     scanner_.require_text();
-    if (!next_header_line()) scanner_.fail("the file holds no q, the number of quads of an edge");
+    if (!next_table_header(scanner_, file_.comments))
+      scanner_.fail("the file holds no q, the number of quads of an edge");
     constexpr long largest_q = 1 << 14;  // 6 (q + 1)² fits an int
     const long q = scanner_.integer();
     if (q < 1 || q > largest_q)
@@ -86,22 +87,13 @@ class IcqReader {
                     " bytes that follow");
   }
 
-  bool next_header_line() {
-    while (scanner_.next_line()) {
-      if (!scanner_.at_line_end()) return true;
-      if (scanner_.at_comment()) file_.comments.push_back(one_line(scanner_.comment()));
-    }
-    return false;
-  }
-
   void read_points() {
     points_.resize(count_, 3);
     bool has_albedo = false;
     for (std::int64_t point = 0; point < count_; ++point) {
       next_table_row(scanner_, "vector", point, count_);
       if (point == 0) has_albedo = words_left(scanner_) == 4;
-      for (int axis = 0; axis < 3; ++axis)
-        points_(point, axis) = table_coordinate(scanner_, options_.non_finite);
+      points_.row(point) = table_vector(scanner_, options_.non_finite);
       if (has_albedo) albedo_.push_back(table_number(scanner_));
       expect_table_line_end(scanner_);
       add_point(point);

@@ -66,7 +66,8 @@ class PlateReader {
 
   void read_counts() {
     scanner_.require_text();
-    if (!next_header_line()) scanner_.fail("the file holds no number of vertices");
+    if (!next_table_header(scanner_, file_.comments))
+      scanner_.fail("the file holds no number of vertices");
     if (three_numbers_left(scanner_))
       scanner_.fail(
           "the table begins with numbers of a row, not with counts: of tables, plates are read "
@@ -81,14 +82,6 @@ class PlateReader {
       at_first_vertex_ = true;
   }
 
-  bool next_header_line() {
-    while (scanner_.next_line()) {
-      if (!scanner_.at_line_end()) return true;
-      if (scanner_.at_comment()) file_.comments.push_back(one_line(scanner_.comment()));
-    }
-    return false;
-  }
-
   void read_plate_count() {
     plates_ = table_count(scanner_, "plates", options_.max_faces, row_bytes);
     expect_table_line_end(scanner_);
@@ -100,8 +93,7 @@ class PlateReader {
     for (std::int64_t v = 0; v < vertices_; ++v) {
       if (v > 0 || !at_first_vertex_) next_table_row(scanner_, "vertex", v, vertices_);
       numbers.read(scanner_, v);
-      for (int axis = 0; axis < 3; ++axis)
-        file_.mesh.positions(v, axis) = table_coordinate(scanner_, options_.non_finite);
+      file_.mesh.positions.row(v) = table_vector(scanner_, options_.non_finite);
       expect_table_line_end(scanner_);
     }
   }

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "parsed_number.h"
+#include "sphparam/io/mesh_file.h"
 
 namespace sphparam {
 namespace {
@@ -142,9 +143,13 @@ double table_number(TextScanner& scanner) {
   return scanner.real();
 }
 
-double table_coordinate(TextScanner& scanner, bool non_finite) {
-  if (const std::optional<double> value = fortran_number(scanner, non_finite)) return *value;
-  return scanner.coordinate();
+Vector3 table_vector(TextScanner& scanner, bool non_finite) {
+  Vector3 result;
+  for (double& coordinate : result) {
+    const std::optional<double> value = fortran_number(scanner, non_finite);
+    coordinate = value ? *value : scanner.coordinate();
+  }
+  return result;
 }
 
 std::int64_t table_count(TextScanner& scanner, const char* things, std::int64_t limit,
@@ -164,6 +169,14 @@ std::int64_t table_count(TextScanner& scanner, const char* things, std::int64_t 
 void expect_table_line_end(TextScanner& scanner) {
   if (!scanner.at_line_end())
     scanner.fail("unexpected " + quoted(scanner.peek_word()) + " at the end of the line");
+}
+
+bool next_table_header(TextScanner& scanner, std::vector<std::string>& comments) {
+  while (scanner.next_line()) {
+    if (!scanner.at_line_end()) return true;
+    if (scanner.at_comment()) comments.push_back(one_line(scanner.comment()));
+  }
+  return false;
 }
 
 void next_table_row(TextScanner& scanner, const char* thing, std::int64_t i, std::int64_t count) {

@@ -3,8 +3,10 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "io/files/text_scanner.h"
+#include "sphparam/mesh/triangle_mesh.h"
 
 namespace sphparam {
 
@@ -26,9 +28,9 @@ bool three_numbers_left(const TextScanner& scanner);
 /// The next number, also with an exponent of Fortran's: 1.5D+01. Throws: ReadError, also for what
 /// is not finite.
 double table_number(TextScanner& scanner);
-/// The same for coordinates, which may be no finite numbers where `non_finite` is what the options
-/// of the scanner say.
-double table_coordinate(TextScanner& scanner, bool non_finite);
+/// Three coordinates, which may be no finite numbers where `non_finite` is what the options of the
+/// scanner say.
+Vector3 table_vector(TextScanner& scanner, bool non_finite);
 
 /// A number of things, each of `row_bytes` at least. Throws: ReadError for what is negative, over
 /// the limit or what ids can count, or cannot fit the bytes that follow.
@@ -37,6 +39,10 @@ std::int64_t table_count(TextScanner& scanner, const char* things, std::int64_t 
 
 /// Throws: ReadError unless the line ends here.
 void expect_table_line_end(TextScanner& scanner);
+
+/// Moves to the first line that holds something; comments before it are added to `comments`.
+/// Returns false where there is none.
+bool next_table_header(TextScanner& scanner, std::vector<std::string>& comments);
 
 /// Moves to the next line that holds something. Throws: ReadError where there is none, which says
 /// that `thing` number i + 1 of `count` is missing.
