@@ -9,6 +9,7 @@
 
 #include "elementary.h"
 #include "option_domain.h"
+#include "sphere/face_rays.h"
 #include "sphparam/parallel.h"
 
 // Density. A triangle of source area A, magnified s = Ω/A, at polar angle ϕ from an axis has
@@ -81,14 +82,7 @@ Points spread_directions(int count) {
   return directions;
 }
 
-struct ImageCorners {
-  Vector3 a, b, c;
-};
-
-ImageCorners corners(const Topology& topology, const SphereMap& map, Face f) {
-  return {map.point(topology.vertex(f, 0)), map.point(topology.vertex(f, 1)),
-          map.point(topology.vertex(f, 2))};
-}
+using ImageCorners = std::array<Vector3, 3>;
 
 /// Axes as three lists, for loops that the compiler turns into vector instructions.
 struct Axes {
@@ -116,14 +110,14 @@ struct LongEdge {
 };
 
 /// Is the longest edge short beside the height above it, det / length?
-bool is_round(const ImageCorners& t, double det) {
+bool is_round(const ImageCorners& triangle, double det) {
+  const auto& [a, b, c] = triangle;
   const double longest =
-      std::max({(t.b - t.a).squaredNorm(), (t.c - t.b).squaredNorm(), (t.a - t.c).squaredNorm()});
+      std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
   return longest < low * det;
 }
 
-LongEdge long_edge(const ImageCorners& t, double det) {
-  const std::array<Vector3, 3> x{t.a, t.b, t.c};
+LongEdge long_edge(const ImageCorners& x, double det) {
   size_t first = 0;
   double length2 = 0;
   for (size_t i = 0; i < 3; ++i) {
@@ -165,7 +159,7 @@ void count_folds(const ImageCorners& t, double det, const Axes& axes,
   for (size_t k = 0; k < axes.size(); ++k) {
     if (!suspect[k]) continue;
     const Eigen::Matrix3d& frame = axes.frames[k];
-    folds[k] += folds_in_chart(frame * t.a, frame * t.b, frame * t.c);
+    folds[k] += folds_in_chart(frame * t[0], frame * t[1], frame * t[2]);
   }
 }
 
@@ -175,40 +169,49 @@ struct Survey {
   std::vector<double> folds;  // per axis
 };
 
+/// What a run of triangles adds to a survey.
+struct SurveyPart {
+  Cells cells{};
+  std::vector<int> folds;  // per axis
+};
+
+/// Logarithms are taken of many at once.
+SurveyPart survey_run(const Topology& topology, const RestTriangles& source, const SphereMap& map,
+                      const Axes& axes, Face first, Face last) {
+  SurveyPart part{{}, std::vector<int>(axes.size(), 0)};
+  std::vector<unsigned char> suspect(axes.size());
+  std::array<ImageCorners, at_once> triangles;
+  std::array<double, at_once> dets, areas, ratios, logs;
+  for (Face f = first; f < last;) {
+    size_t count = 0;
+    for (; f < last && count < at_once; ++f) {
+      const auto [a, b, c] = triangles[count] = face_rays(topology, map, f);
+      dets[count] = a.dot((b - a).cross(c - a));
+      areas[count] = source[at(f)].area;
+      ratios[count] = dets[count] / (2 * areas[count]);
+      if (dets[count] > 0) ++count;
+    }
+    elementary::log2(std::span(ratios).first(count), std::span(logs).first(count));
+    for (size_t i = 0; i < count; ++i) {
+      const auto& [a, b, c] = triangles[i];
+      const double area = areas[i], log = logs[i];
+      part.cells[at(cell_of(a + b + c))].add({area, area * log, area * log * log});
+      count_folds(triangles[i], dets[i], axes, suspect, part.folds);
+    }
+  }
+  return part;
+}
+
 Survey survey_triangles(const Topology& topology, const RestTriangles& source, const SphereMap& map,
                         const Axes& axes, int threads) {
   const std::int64_t faces = topology.face_count();
-  struct Part {
-    Cells cells{};
-    std::vector<int> folds;
-  };
-  std::vector<Part> parts(at((faces + face_grain - 1) / face_grain));
+  std::vector<SurveyPart> parts(at((faces + face_grain - 1) / face_grain));
   parallel_for(faces, face_grain, threads, [&](std::int64_t first, std::int64_t last) {
-    Part& part = parts[at(first / face_grain)];
-    part.folds.assign(axes.size(), 0);
-    std::vector<unsigned char> suspect(axes.size());
-    std::array<ImageCorners, at_once> triangles;
-    std::array<double, at_once> dets, areas, ratios, logs;
-    for (auto f = static_cast<Face>(first); f < static_cast<Face>(last);) {
-      size_t count = 0;
-      for (; f < static_cast<Face>(last) && count < at_once; ++f) {
-        const ImageCorners t = triangles[count] = corners(topology, map, f);
-        dets[count] = t.a.dot((t.b - t.a).cross(t.c - t.a));
-        areas[count] = source[at(f)].area;
-        ratios[count] = dets[count] / (2 * areas[count]);
-        if (dets[count] > 0) ++count;
-      }
-      elementary::log2(std::span(ratios).first(count), std::span(logs).first(count));
-      for (size_t i = 0; i < count; ++i) {
-        const ImageCorners& t = triangles[i];
-        const double area = areas[i], log = logs[i];
-        part.cells[at(cell_of(t.a + t.b + t.c))].add({area, area * log, area * log * log});
-        count_folds(t, dets[i], axes, suspect, part.folds);
-      }
-    }
+    parts[at(first / face_grain)] =
+        survey_run(topology, source, map, axes, static_cast<Face>(first), static_cast<Face>(last));
   });
   Survey survey{{}, std::vector<double>(axes.size(), 0)};
-  for (const Part& part : parts) {
+  for (const SurveyPart& part : parts) {
     for (size_t i = 0; i < part.cells.size(); ++i) survey.cells[i].add(part.cells[i]);
     for (size_t k = 0; k < part.folds.size(); ++k) survey.folds[k] += part.folds[k];
   }
