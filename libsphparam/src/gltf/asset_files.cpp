@@ -157,6 +157,20 @@ void tell_numbers_lost(const MeshFile& source, const MeshFile& textured, bool ob
       add_loss(warnings, words_of_lost_labels(names));
 }
 
+/// The mesh in a file that names the image, as .obj with a library beside it.
+void add_mesh_beside_image(Adder& adder, const std::string& path, MeshFile textured,
+                           const std::string& image_path, const BytesCheck& check) {
+  const std::string image_name = fs::path(image_path).filename().string();
+  if (is_obj(path)) {
+    const std::string library = fs::path(library_of(path)).filename().string();
+    adder.add(path, obj_with_library(textured, library), check);
+    adder.add(library_of(path), material_library(image_name));
+  } else {
+    textured.comments.push_back("TextureFile " + image_name);
+    adder.add(path, serialise_ply(textured), check);
+  }
+}
+
 }  // namespace
 
 std::size_t bytes_of(const std::vector<AssetImage>& images) {
@@ -232,7 +246,6 @@ void require_export_place(const std::string& path) {
 TexturedFiles add_textured_mesh(PendingFiles& files, const std::string& path,
                                 const MappedMesh& mapped, const Look& look,
                                 const ExportOptions& options) {
-  const bool obj = is_obj(path);
   const AssetImage& image = shown_image(look);
   require_export_place(path);
   require_export_domain(options);
@@ -245,19 +258,10 @@ TexturedFiles add_textured_mesh(PendingFiles& files, const std::string& path,
   const BytesCheck check = [&](std::string_view on_disk) {
     result.chart.stored = certify_written(on_disk, path, chart, fillers, options.threads);
   };
-  const std::string image_path = image_file(path, image);
-  const std::string image_name = fs::path(image_path).filename().string();
-  tell_numbers_lost(mapped.file(), textured, obj, result.warnings);
+  tell_numbers_lost(mapped.file(), textured, is_obj(path), result.warnings);
   Adder adder(files, path);
-  if (obj) {
-    const std::string library = fs::path(library_of(path)).filename().string();
-    adder.add(path, obj_with_library(textured, library), check);
-    adder.add(library_of(path), material_library(image_name));
-  } else {
-    textured.comments.push_back("TextureFile " + image_name);
-    adder.add(path, serialise_ply(textured), check);
-  }
-  adder.add(image_path, image.bytes);
+  add_mesh_beside_image(adder, path, std::move(textured), image_file(path, image), check);
+  adder.add(image_file(path, image), image.bytes);
   result.files = adder.take();
   warn_of_moves(source_name(mapped, options), chart, result.warnings);
   warn_of_folds(source_name(mapped, options), result.chart, options.keep_topology, result.warnings);

@@ -1,12 +1,11 @@
 #include "sphparam/gltf/gltf_writer.h"
 
 #include <algorithm>
-#include <cstdint>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
 
+#include "gltf/glb_container.h"
 #include "gltf/images/image_kind.h"
 #include "gltf/packing.h"
 #include "io/attributes/authorship.h"
@@ -373,7 +372,7 @@ class Builder {
            {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}});
     }
     add_lists();
-    if (options_.container == GltfContainer::Binary) return {{"", glb(text(-1), bytes)}};
+    if (options_.container == GltfContainer::Binary) return {{"", glb_container(text(-1), bytes)}};
     GltfFiles files{{"", text(1)}};
     if (options_.container == GltfContainer::Separate)
       files.emplace_back(options_.stem + ".bin", std::move(bytes));
@@ -399,28 +398,6 @@ class Builder {
                                      {"buffers", &lists_.buffers}}) {
       if (!list->empty()) root_[name] = std::move(*list);
     }
-  }
-
-  /// Header, a chunk of JSON padded by blanks, a chunk of bytes. glTF 2.0, Section 4.
-  static std::string glb(std::string json, const std::string& bytes) {
-    constexpr std::uint32_t magic = 0x46546C67, json_chunk = 0x4E4F534A, binary_chunk = 0x004E4942;
-    json.resize((json.size() + 3) / 4 * 4, ' ');
-    const std::size_t size = 12 + 8 + json.size() + 8 + bytes.size();
-    if (size > std::numeric_limits<std::uint32_t>::max())
-      throw std::length_error("more than the 4 GiB of a .glb: choose .gltf");
-    std::string file;
-    file.reserve(size);
-    const auto word = [&](std::size_t value) {
-      for (int shift = 0; shift < 32; shift += 8) file += static_cast<char>(value >> shift & 0xFF);
-    };
-    for (const std::size_t value : {std::size_t{magic}, std::size_t{2}, size}) word(value);
-    word(json.size());
-    word(json_chunk);
-    file += json;
-    word(bytes.size());
-    word(binary_chunk);
-    file += bytes;
-    return file;
   }
 
   std::size_t first_material_ = 0;  // of the level that is added

@@ -243,20 +243,26 @@ class LookMaker {
   }
 
   void choose_base_colour(const BakedImages& given) {
-    const MeshFile& file = mapped_.file();
     material_.unlit = wanted_.unlit;
     material_.name = "baked";
-    if (!given.base_colour.empty()) {
-      GivenImage image = read(given.base_colour, "basecolor");
-      material_.base_colour = add(std::move(image.asset));
-      take_sides(material_, image);
-      // Who names an image that light falls on wants light.
-      const bool lit = !wanted_.normal.empty() || !wanted_.occlusion.empty() ||
-                       !wanted_.orm.empty() || !wanted_.emissive.empty() || wanted_.tangents;
-      baked_unlit_ = baked_text(image.texts, unlit_text) == "1";
-      material_.unlit = material_.unlit || (!lit && baked_unlit_);
-      return;
-    }
+    given.base_colour.empty() ? show_own_colours(given) : show_given_colour(given.base_colour);
+  }
+
+  void show_given_colour(const std::string& path) {
+    GivenImage image = read(path, "basecolor");
+    material_.base_colour = add(std::move(image.asset));
+    take_sides(material_, image);
+    // Who names an image that light falls on wants light.
+    const bool lit = !wanted_.normal.empty() || !wanted_.occlusion.empty() ||
+                     !wanted_.orm.empty() || !wanted_.emissive.empty() || wanted_.tangents;
+    baked_unlit_ = baked_text(image.texts, unlit_text) == "1";
+    material_.unlit = material_.unlit || (!lit && baked_unlit_);
+  }
+
+  /// Those of the mesh's textures or of its vertices; where it has none, white under a relief, or
+  /// a checker.
+  void show_own_colours(const BakedImages& given) {
+    const MeshFile& file = mapped_.file();
     textures_ = read_textures(file, options_.threads);
     if (!textures_.empty()) take_one_material(given);
     tell_left_behind();
