@@ -29,6 +29,29 @@ void require_page_name(const std::string& path) {
   throw UsageMistake("--page: the page is written as .html, not as " + output_name(path));
 }
 
+void declare_outputs(Declaration& command, MatchArguments& arguments) {
+  command.text("--write-shape", arguments.shape, "FILE", "The triangles of A in the shape of B")
+      .written()
+      .text("--write-values", arguments.values, "FILE",
+            "A with the vertices' values and colours of B")
+      .written()
+      .text("--write-back", arguments.back, "FILE", "The triangles of B in the shape of A")
+      .written()
+      .text("--morph", arguments.morph, "FILE",
+            "A with an animation that turns it into B and back (.glb)")
+      .written()
+      .choice("--morph-place", arguments.placement,
+              {{"scaled", Placement::Scaled},
+               {"moved", Placement::Moved},
+               {"as-is", Placement::AsItIs}},
+              "How B comes to where A is: turned, moved and scaled to A's area; without scaling; "
+              "or as its file has it (default: scaled)")
+      .text("--page", arguments.page, "FILE",
+            "A page that shows the match: both in one colouring, a 3D morph, distortion, figures")
+      .written()
+      .flag_off("--no-viewer", arguments.viewer, "Pages with pictures alone, without scripts");
+}
+
 }  // namespace
 
 void require_sensible(const MatchArguments& arguments) {
@@ -83,29 +106,9 @@ void declare_options(Declaration& command, MatchArguments& arguments) {
               "Of A → B, what is minimised: stretch both ways, or angles and areas as of maps "
               "(default: symmetric-dirichlet)")
       .text("--sphere", arguments.first_sphere, "FILE", "The map of A, in a file of its own")
-      .text("--sphere-b", arguments.second_sphere, "FILE", "The same for B")
-      .text("--write-shape", arguments.shape, "FILE", "The triangles of A in the shape of B")
-      .written()
-      .text("--write-values", arguments.values, "FILE",
-            "A with the vertices' values and colours of B")
-      .written()
-      .text("--write-back", arguments.back, "FILE", "The triangles of B in the shape of A")
-      .written()
-      .text("--morph", arguments.morph, "FILE",
-            "A with an animation that turns it into B and back (.glb)")
-      .written()
-      .choice("--morph-place", arguments.placement,
-              {{"scaled", Placement::Scaled},
-               {"moved", Placement::Moved},
-               {"as-is", Placement::AsItIs}},
-              "How B comes to where A is: turned, moved and scaled to A's area; without scaling; "
-              "or as its file has it (default: scaled)")
-      .text("--page", arguments.page, "FILE",
-            "A page that shows the match: both in one colouring, a 3D morph, distortion, figures")
-      .written()
-      .flag_off("--no-viewer", arguments.viewer, "Pages with pictures alone, without scripts")
-      .up(arguments.up)
-      .json(arguments, "Certificates, distortion, landmarks");
+      .text("--sphere-b", arguments.second_sphere, "FILE", "The same for B");
+  declare_outputs(command, arguments);
+  command.up(arguments.up).json(arguments, "Certificates, distortion, landmarks");
   declare_repair_options(command, arguments.repair);
   command.threads(arguments).console(arguments);
 }
