@@ -1,35 +1,22 @@
 #include "sphparam/records/harmonics_record.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <set>
 #include <stdexcept>
 
 #include "csv_field.h"
-#include "io/files/file_bytes.h"
 #include "number_text.h"
 #include "place_text.h"
+#include "records/harmonic_bases.h"
 #include "records/json_parts.h"
-#include "sphparam/io/coef_file.h"
-#include "sphparam/io/paths.h"
 #include "sphparam/version.h"
 
 namespace sphparam {
 
 namespace {
-
-constexpr char orthonormal_basis[] =
-    "real, orthonormal on the unit sphere, without the Condon-Shortley phase; row l*l + l + m; "
-    "m > 0: cos(m theta), m < 0: sin(|m| theta); Y_11, Y_1-1, Y_10 = sqrt(3/(4 pi)) (x, y, z)";
-
-constexpr char geodetic_basis[] =
-    "real, 4pi-normalised, without the Condon-Shortley phase, as in geodesy; row l*l + l + m; "
-    "m >= 0: C_lm of cos(m theta), m < 0: S_l|m| of sin(|m| theta); Y_11, Y_1-1, Y_10 = sqrt(3) "
-    "(x, y, z)";
 
 bool is_geodetic(const HarmonicExpansion& expansion) {
   return expansion.normalisation == HarmonicNormalisation::FourPi;
@@ -96,6 +83,39 @@ Json column(const Functions& values, Eigen::Index k) {
   return result;
 }
 
+/// Else coefficients are known, and no more.
+bool is_measured(const HarmonicExpansion& expansion) { return expansion.fit.rms.size() > 0; }
+
+void add_fit(Json& json, const HarmonicExpansion& expansion) {
+  json["fit"] = expansion.least_squares ? "least-squares" : "quadrature";
+  json["iterations"] = expansion.fit.iterations;
+  json["converged"] = expansion.fit.converged;
+  json["decided_degree"] = expansion.fit.decided_degree.value_or(expansion.degree());
+  json["position_rms"] = expansion.position_rms();
+  json["position_rms_relative"] = expansion.position_rms() / expansion.diagonal;
+  json["position_rms_unweighted"] = expansion.plain_position_rms();
+  json["rms"] = rms_meaning;
+  if (!expansion.least_squares) json["quadrature"] = quadrature_json(expansion.fit);
+}
+
+Json functions_json(const HarmonicExpansion& expansion) {
+  const Functions coefficients = expansion.told_coefficients();
+  const Functions power = power_per_degree(coefficients);
+  Json functions = Json::array();
+  for (size_t k = 0; k < expansion.functions.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    Json function = {{"name", expansion.functions[k]}};
+    if (is_measured(expansion)) {
+      function["rms_residual"] = expansion.fit.rms[i];
+      function["rms_residual_unweighted"] = expansion.plain_rms[i];
+    }
+    function["power_per_degree"] = column(power, i);
+    function["coefficients"] = column(coefficients, i);
+    functions.push_back(std::move(function));
+  }
+  return functions;
+}
+
 std::string quadrature_line(const HarmonicFit& fit) {
   const std::string line = "integral by " + std::to_string(fit.quadrature_degree + 1) + " × " +
                            std::to_string(2 * fit.quadrature_degree + 2) + " nodes";
@@ -104,148 +124,17 @@ std::string quadrature_line(const HarmonicFit& fit) {
          percent(*fit.quadrature_change) + " of what the functions vary";
 }
 
-/// Objects of strangers' files may have any number of keys, which ordered ones seek one by one.
-using Document = nlohmann::json;
-
-/// "radius", but not "a b", which no property of vertices is called.
-bool is_name(const std::string& text) {
-  const auto is_blank = [](unsigned char c) { return c <= ' ' || c == 127; };
-  return !text.empty() && std::ranges::none_of(text, is_blank);
-}
-
-std::vector<std::string> function_names(const Document& functions, const std::string& file) {
-  constexpr std::array axes{"x", "y", "z"};
-  std::vector<std::string> names;
-  std::set<std::string> seen;
-  for (const Document& function : functions) {
-    const auto name = function.at("name").get<std::string>();
-    const bool is_expected =
-        names.size() < axes.size() ? name == axes[names.size()] : is_name(name);
-    if (!is_expected || !seen.insert(name).second)
-      throw ReadError(file, "functions are x, y, z and then others, each once, not " +
-                                joined(names) + (names.empty() ? "" : ", ") + one_line(name));
-    names.push_back(name);
-  }
-  if (names.size() < axes.size()) throw ReadError(file, "there are no functions x, y and z");
-  return names;
-}
-
-/// One function a column: no table is larger than what the file has.
-Functions coefficient_table(const Document& functions, const std::string& file) {
-  std::vector<std::vector<double>> columns;
-  for (const Document& function : functions) {
-    columns.push_back(function.at("coefficients").get<std::vector<double>>());
-    if (columns.back().size() != columns.front().size())
-      throw ReadError(file, "functions have not as many coefficients each");
-  }
-  const auto rows = static_cast<double>(columns.front().size());
-  const double degree = std::round(std::sqrt(rows)) - 1;
-  if (degree < 0 || degree > greatest_harmonic_degree || (degree + 1) * (degree + 1) != rows)
-    throw ReadError(file, shortest(rows) + " coefficients are no (L + 1)² with L up to " +
-                              std::to_string(greatest_harmonic_degree));
-  Functions table(std::ssize(columns.front()), std::ssize(columns));
-  for (size_t k = 0; k < columns.size(); ++k)
-    table.col(static_cast<Eigen::Index>(k)) =
-        Eigen::Map<const VectorX>(columns[k].data(), table.rows());
-  return table;
-}
-
-HarmonicNormalisation normalisation_of(const Document& json, const std::string& file) {
-  const auto basis = json.at("basis").get<std::string>();
-  if (basis == geodetic_basis) return HarmonicNormalisation::FourPi;
-  if (basis == orthonormal_basis) return HarmonicNormalisation::Orthonormal;
-  throw ReadError(file, "its basis is none of ours: " + one_line(basis));
-}
-
-HarmonicAlignment alignment_of(const Document& json) {
-  if (!json.contains("alignment")) return HarmonicAlignment::None;
-  return json["alignment"].at("turned") == "sphere" ? HarmonicAlignment::Sphere
-                                                    : HarmonicAlignment::SphereAndSurface;
-}
-
-Vector3 centre_of(const Document& numbers) {
-  const auto centre = numbers.get<std::array<double, 3>>();
-  return Vector3(centre.data());
-}
-
-/// Lines that a mesh of them tells again.
-Provenance map_of(const Document& json) {
-  Provenance lines;
-  for (const auto& [key, value] : json.at("map").items())
-    if (is_name(key) && value.is_string())
-      lines.emplace_back(key, one_line(value.get<std::string>()));
-  return lines;
-}
-
-HarmonicExpansion of_json(const Document& json, const std::string& file) {
-  HarmonicExpansion expansion;
-  const Document& functions = json.at("functions");
-  expansion.functions = function_names(functions, file);
-  expansion.fit.coefficients = coefficient_table(functions, file);
-  expansion.normalisation = normalisation_of(json, file);
-  if (expansion.normalisation == HarmonicNormalisation::FourPi)
-    expansion.fit.coefficients *= std::sqrt(4 * std::numbers::pi);
-  expansion.aligned = alignment_of(json);
-  if (json.contains("centre") && expansion.functions.back() == "radius")
-    expansion.radius_about = centre_of(json["centre"]);
-  expansion.map = map_of(json);
-  if (expansion.aligned != HarmonicAlignment::None)
-    std::erase_if(expansion.map, [](const auto& line) { return line.first == "upright"; });
-  return expansion;
-}
-
 }  // namespace
-
-HarmonicExpansion parse_harmonics(std::string_view text, const std::string& name) try {
-  if (extension_of(name) != ".coef") return of_json(Document::parse(text), name);
-  HarmonicExpansion expansion;
-  expansion.functions = {"x", "y", "z"};
-  expansion.fit.coefficients = parse_coef(text, name);
-  return expansion;
-} catch (const Document::exception& error) {
-  throw ReadError(name, "these are no coefficients as `sphparam spharm --json` writes them: " +
-                            one_line(error.what()));
-}
-
-HarmonicExpansion read_harmonics(const std::string& path) {
-  const FileBytes bytes(path, ReadOptions{}.max_file_bytes);
-  return parse_harmonics(bytes.view(), bytes.name());
-}
 
 std::string to_json(const HarmonicExpansion& expansion, const std::string& mesh,
                     const Provenance& map) {
-  const Functions coefficients = expansion.told_coefficients();
-  const Functions power = power_per_degree(coefficients);
-  const bool is_measured = expansion.fit.rms.size() > 0;
-  Json functions = Json::array();
-  for (size_t k = 0; k < expansion.functions.size(); ++k) {
-    const auto i = static_cast<Eigen::Index>(k);
-    Json function = {{"name", expansion.functions[k]}};
-    if (is_measured) {
-      function["rms_residual"] = expansion.fit.rms[i];
-      function["rms_residual_unweighted"] = expansion.plain_rms[i];
-    }
-    function["power_per_degree"] = column(power, i);
-    function["coefficients"] = column(coefficients, i);
-    functions.push_back(std::move(function));
-  }
   Json json = {{"sphparam", version},
                {"command", "spharm"},
                {"mesh", mesh},
                {"map", pairs_json(map)},
                {"degree", expansion.degree()},
                {"basis", is_geodetic(expansion) ? geodetic_basis : orthonormal_basis}};
-  if (is_measured) {
-    json["fit"] = expansion.least_squares ? "least-squares" : "quadrature";
-    json["iterations"] = expansion.fit.iterations;
-    json["converged"] = expansion.fit.converged;
-    json["decided_degree"] = expansion.fit.decided_degree.value_or(expansion.degree());
-    json["position_rms"] = expansion.position_rms();
-    json["position_rms_relative"] = expansion.position_rms() / expansion.diagonal;
-    json["position_rms_unweighted"] = expansion.plain_position_rms();
-    json["rms"] = rms_meaning;
-  }
-  if (is_measured && !expansion.least_squares) json["quadrature"] = quadrature_json(expansion.fit);
+  if (is_measured(expansion)) add_fit(json, expansion);
   if (expansion.radius_about) {
     json["centre"] = vector_json(*expansion.radius_about);
     json["reference_radius"] = mean_radius(expansion);
@@ -255,7 +144,7 @@ std::string to_json(const HarmonicExpansion& expansion, const std::string& mesh,
         vector_json(first_order_ellipsoid(expansion.fit.coefficients.leftCols(3)));
   }
   if (expansion.alignment) json["alignment"] = alignment_json(expansion);
-  json["functions"] = functions;
+  json["functions"] = functions_json(expansion);
   return text_of(json, 1);
 }
 

@@ -72,6 +72,23 @@ std::string left_behind(const MeshFile& soup) {
   return kinds.empty() ? "" : "stays with the soup: " + joined(kinds);
 }
 
+Json soup_json(const WrapRecord& record) {
+  return {{"file", record.input},
+          {"format", record.soup.format},
+          {"vertices", record.soup.mesh.vertex_count()},
+          {"triangles", record.soup.mesh.face_count()},
+          {"notes", record.soup.notes}};
+}
+
+Json distances_json(const OneSidedDistance& off) {
+  return {{"mean", off.mean},
+          {"RMS", off.rms},
+          {"min", off.min},
+          {"max", off.max},
+          {"max_bound", off.max_bound},
+          {"farthest", vector_json(off.farthest)}};
+}
+
 }  // namespace
 
 std::optional<SelfCrossings> crossings_of(const Wrap& wrap, int threads) {
@@ -98,16 +115,10 @@ std::vector<std::string> warnings_of(const WrapRecord& record) {
 
 std::string to_json(const WrapRecord& record) {
   const Wrap& wrap = record.wrap;
-  const OneSidedDistance& off = wrap.apart.forth;
   return text_of(
       {{"sphparam", version},
        {"command", "wrap"},
-       {"input",
-        {{"file", record.input},
-         {"format", record.soup.format},
-         {"vertices", record.soup.mesh.vertex_count()},
-         {"triangles", record.soup.mesh.face_count()},
-         {"notes", record.soup.notes}}},
+       {"input", soup_json(record)},
        {"voxel", wrap.voxel},
        {"distance", wrap.distance},
        {"gap", wrap.gap},
@@ -129,13 +140,7 @@ std::string to_json(const WrapRecord& record) {
        {"volume", wrap.volume},
        {"area", wrap.area},
        {"soup_area", wrap.soup_area},
-       {"from_soup",
-        {{"mean", off.mean},
-         {"RMS", off.rms},
-         {"min", off.min},
-         {"max", off.max},
-         {"max_bound", off.max_bound},
-         {"farthest", vector_json(off.farthest)}}},
+       {"from_soup", distances_json(wrap.apart.forth)},
        {"soup_to_wrap_max", wrap.apart.back.max},
        {"crossings", record.crossings ? crossings_json(*record.crossings) : Json()},
        {"warnings", warnings_of(record)},
