@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "batch/distribution.h"
+#include "batch/each_item.h"
 #include "batch/pictures.h"
 #include "batch/record.h"
 #include "embedded/batch_page.css.h"
@@ -19,7 +20,6 @@
 #include "sphparam/batch/results.h"
 #include "sphparam/batch/status.h"
 #include "sphparam/io/safe_file.h"
-#include "sphparam/parallel.h"
 #include "sphparam/version.h"
 
 namespace sphparam {
@@ -91,13 +91,9 @@ Shape shape_of(const std::string& folder, const BatchPlan& plan, const BatchItem
 }
 
 std::vector<Shape> shapes_of(const std::string& folder, const BatchPlan& plan, int threads) {
-  std::vector<Shape> shapes(plan.items.size());
   constexpr std::int64_t grain = 16;
-  parallel_for(std::ssize(shapes), grain, threads, [&](std::int64_t first, std::int64_t last) {
-    for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
-      shapes[i] = shape_of(folder, plan, plan.items[i]);
-  });
-  return shapes;
+  return of_each_item(plan, grain, threads,
+                      [&](const BatchItem& item) { return shape_of(folder, plan, item); });
 }
 
 /// Three digits: more is not looked at, and the page is loaded as a whole.

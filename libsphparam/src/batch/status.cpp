@@ -10,13 +10,13 @@
 #include <tuple>
 
 #include "batch/alike_reasons.h"
+#include "batch/each_item.h"
 #include "batch/engines.h"
 #include "batch/publication.h"
 #include "batch/record.h"
 #include "batch/staging.h"
 #include "number_text.h"
 #include "sphparam/io/safe_file.h"
-#include "sphparam/parallel.h"
 #include "sphparam/version.h"
 
 namespace sphparam {
@@ -32,13 +32,11 @@ constexpr std::int64_t lately = 3600;    // seconds
 using Heads = std::vector<std::optional<BatchRecordHead>>;
 
 Heads heads_of(const std::string& folder, const BatchPlan& plan, int threads) {
-  Heads heads(plan.items.size());
   constexpr std::int64_t grain = 256;
-  parallel_for(std::ssize(heads), grain, threads, [&](std::int64_t first, std::int64_t last) {
-    for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
-      if (auto record = record_about(folder, plan.items[i])) heads[i] = std::move(record->head);
+  return of_each_item(plan, grain, threads, [&](const BatchItem& item) {
+    auto record = record_about(folder, item);
+    return record ? std::optional(std::move(record->head)) : std::nullopt;
   });
-  return heads;
 }
 
 std::vector<BatchFailures> grouped(const BatchPlan& plan, const Heads& heads) {

@@ -8,11 +8,11 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "batch/each_item.h"
 #include "batch/record.h"
 #include "batch/tables.h"
 #include "number_text.h"
 #include "sphparam/batch/results.h"
-#include "sphparam/parallel.h"
 
 namespace sphparam {
 
@@ -146,12 +146,9 @@ std::set<std::string> names_of_ours(const std::vector<Row>& rows) {
 
 std::string batch_table(const std::string& folder, const BatchPlan& plan, int threads,
                         char separator) {
-  std::vector<Row> rows(plan.items.size());
   constexpr std::int64_t grain = 64;
-  parallel_for(std::ssize(rows), grain, threads, [&](std::int64_t first, std::int64_t last) {
-    for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
-      rows[i] = row_of(folder, plan.items[i]);
-  });
+  const std::vector<Row> rows = of_each_item(
+      plan, grain, threads, [&](const BatchItem& item) { return row_of(folder, item); });
   std::vector<std::string> names = first_columns;
   const std::vector<std::string> planned = names_of_planned(plan, names_of_ours(rows));
   names.insert(names.end(), planned.begin(), planned.end());
