@@ -16,6 +16,30 @@ void put(const Vector3& n, float*& values) {
   for (int c = 0; c < 3; ++c) *values++ = static_cast<float>(n[c]);
 }
 
+/// Tangent, bitangent and normal as the vertices of a triangle have them: of any length.
+Eigen::Matrix3d axes_at(const ShadingFrame& frame, const Triangles& wedges,
+                        const SurfacePoint& place) {
+  Vector3 tangent = Vector3::Zero(), normal = Vector3::Zero();
+  double sign = 0;
+  for (int k = 0; k < 3; ++k) {
+    const int wedge = wedges(place.face, k);
+    const double weight = place.barycentric[k];
+    tangent += weight * frame.tangents.row(wedge).head<3>();
+    normal += weight * frame.normals.row(wedge);
+    sign += weight * frame.tangents(wedge, 3);
+  }
+  Eigen::Matrix3d axes;
+  axes << tangent, (sign < 0 ? -1 : 1) * normal.cross(tangent), normal;
+  return axes;
+}
+
+/// Where axes have no room (normals or tangents that cancel), nothing can be told of them: z.
+Vector3 in_axes(const Eigen::Matrix3d& axes, const Vector3& n) {
+  const Vector3 local = axes.inverse() * n;
+  return local.allFinite() && local.squaredNorm() > 0 ? Vector3(local.normalized())
+                                                      : Vector3(Vector3::UnitZ());
+}
+
 }  // namespace
 
 SurfaceField make_object_normal(const BakeScene& scene, const std::string&) {
@@ -57,22 +81,9 @@ SurfaceField make_tangent_normal(const BakeScene& scene, const std::string&) {
                                                            float* values) {
     const Triangles& wedges = scene.target.chart.wedges;
     for (const SurfaceSample& sample : samples) {
-      Vector3 tangent = Vector3::Zero(), normal = Vector3::Zero();
-      double sign = 0;
-      for (int k = 0; k < 3; ++k) {
-        const int wedge = wedges(sample.place.face, k);
-        const double weight = sample.place.barycentric[k];
-        tangent += weight * frame->tangents.row(wedge).head<3>();
-        normal += weight * frame->normals.row(wedge);
-        sign += weight * frame->tangents(wedge, 3);
-      }
-      Eigen::Matrix3d axes;
-      axes << tangent, (sign < 0 ? -1 : 1) * normal.cross(tangent), normal;
       const Vector3 found = source->at(sample);
       const Vector3 n = scene.walls ? scene.walls->normal(sample, found) : found;
-      Vector3 local = axes.inverse() * n;
-      // Where a frame has no room (normals or tangents that cancel), nothing can be told of it.
-      local = local.allFinite() && local.squaredNorm() > 0 ? local.normalized() : Vector3::UnitZ();
+      const Vector3 local = in_axes(axes_at(*frame, wedges, sample.place), n);
       put({x_sign * local[0], y_sign * local[1], local[2]}, values);
     }
   };

@@ -42,40 +42,44 @@ TexelRun single(const SurfacePoint& point, int row, int column) {
 TexelFinder::TexelFinder(const BakeScene& scene, const TexelOwners& owners,
                          Interpolation interpolation, int threads)
     : scene_(&scene), owners_(&owners), interpolation_(interpolation) {
-  const SphericalChart& chart = scene.target.chart;
-  if (scene.target.is_source) {
-    const Triangles& source = scene.source.mesh().triangles;
-    refined_.assign(static_cast<size_t>(chart.triangles.rows()), -1);
-    for (Face f = 0; f < chart.triangles.rows(); ++f) {
-      const Face parent = chart.source_faces[static_cast<size_t>(f)];
-      if (f == parent && chart.triangles.row(f) == source.row(f)) continue;
-      Eigen::Matrix3d corners;
-      for (int k = 0; k < 3; ++k) {
-        const auto v = static_cast<size_t>(chart.triangles(f, k));
-        corners.col(k) = barycentric_in(parent, chart.surface_points[v], source);
-      }
-      refined_[static_cast<size_t>(f)] = static_cast<int>(corners_.size());
-      corners_.push_back(corners);
-    }
-  }
   const bool sphere = interpolation == Interpolation::Sphere;
-  if (scene.source.mapped && (sphere || !scene.target.is_source)) {
-    source_ = &scene.source.mapped->locator();
-    const MappedMesh& mapped = *scene.source.mapped;
-    const auto radial = planetocentric(mapped.provenance());
-    if (radial && is_as_said(*radial, mapped.file(), mapped.map())) {
-      const StandingBody body = standing_body(mapped.file(), radial->centre);
-      seen_from_centre_ = body.mesh.positions.rowwise() - body.centre.transpose();
+  if (scene.target.is_source) find_refined();
+  if (scene.source.mapped && (sphere || !scene.target.is_source)) look_in(*scene.source.mapped);
+  if (sphere) look_on_chart(threads);
+}
+
+void TexelFinder::find_refined() {
+  const SphericalChart& chart = scene_->target.chart;
+  const Triangles& source = scene_->source.mesh().triangles;
+  refined_.assign(static_cast<size_t>(chart.triangles.rows()), -1);
+  for (Face f = 0; f < chart.triangles.rows(); ++f) {
+    const Face parent = chart.source_faces[static_cast<size_t>(f)];
+    if (f == parent && chart.triangles.row(f) == source.row(f)) continue;
+    Eigen::Matrix3d corners;
+    for (int k = 0; k < 3; ++k) {
+      const auto v = static_cast<size_t>(chart.triangles(f, k));
+      corners.col(k) = barycentric_in(parent, chart.surface_points[v], source);
     }
+    refined_[static_cast<size_t>(f)] = static_cast<int>(corners_.size());
+    corners_.push_back(corners);
   }
-  if (sphere) {
-    if (!chart.certificate.inverted.empty()) {
-      throw std::invalid_argument("the chart's points are no sphere map");
-    }
-    chart_topology_.emplace(chart.triangles, static_cast<int>(chart.points.rows()), threads);
-    chart_map_ = SphereMap{chart.points};
-    chart_.emplace(*chart_topology_, *chart_map_, threads);
-  }
+}
+
+void TexelFinder::look_in(const MappedMesh& mapped) {
+  source_ = &mapped.locator();
+  const auto radial = planetocentric(mapped.provenance());
+  if (!radial || !is_as_said(*radial, mapped.file(), mapped.map())) return;
+  const StandingBody body = standing_body(mapped.file(), radial->centre);
+  seen_from_centre_ = body.mesh.positions.rowwise() - body.centre.transpose();
+}
+
+void TexelFinder::look_on_chart(int threads) {
+  const SphericalChart& chart = scene_->target.chart;
+  if (!chart.certificate.inverted.empty())
+    throw std::invalid_argument("the chart's points are no sphere map");
+  chart_topology_.emplace(chart.triangles, static_cast<int>(chart.points.rows()), threads);
+  chart_map_ = SphereMap{chart.points};
+  chart_.emplace(*chart_topology_, *chart_map_, threads);
 }
 
 SurfaceRun TexelFinder::run_in_source(const TexelRun& place) const {

@@ -73,6 +73,9 @@ class TexelFinder {
   const TexelOwners& owners() const { return *owners_; }
 
  private:
+  void find_refined();
+  void look_in(const MappedMesh& mapped);
+  void look_on_chart(int threads);
   void locate(const TexelRun& place, std::vector<SurfaceRun>& runs) const;
   void project(const TexelRun& place, std::vector<SurfaceRun>& runs) const;
   SurfaceRun projected(const TexelRun& place, const Vector3& at) const;
