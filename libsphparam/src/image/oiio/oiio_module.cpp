@@ -96,12 +96,10 @@ std::string png_texts_of(const SphparamImageFile& file) {
   return chunks;
 }
 
-OIIO::ImageSpec spec_of(const SphparamImageFile& file) {
-  const std::string format = file.format;
-  OIIO::ImageSpec spec(file.width, file.height, file.channels, OIIO::TypeDesc(file.sample_type));
+void describe_format(OIIO::ImageSpec& spec, const std::string& format) {
   spec.attribute("oiio:UnassociatedAlpha", 1);
   // Beside one value OpenImageIO takes a channel for nothing, and the file would not name it.
-  if (format == "tiff" && file.channels == 2) {
+  if (format == "tiff" && spec.nchannels == 2) {
     spec.channelnames = {"Y", "A"};
     spec.alpha_channel = 1;
   }
@@ -114,23 +112,36 @@ OIIO::ImageSpec spec_of(const SphparamImageFile& file) {
   if (format == "tiff") spec.attribute("tiff:write_exif", 0);
   if (format == "png") spec.attribute("png:compressionLevel", 6);
   if (format == "jpeg") spec.attribute("compression", "jpeg:95");
-  if (file.tile > 0) {
-    spec.tile_width = spec.tile_height = file.tile;
-    spec.tile_depth = 1;
-    spec.attribute("textureformat", "Plain Texture");
-    spec.attribute("openexr:levelmode", 1);     // mipmap
-    spec.attribute("openexr:roundingmode", 0);  // down
-    if (file.wraps) spec.attribute("wrapmodes", "periodic,clamp");
-  }
-  // JPEG and TIFF have no place for names of ours.
-  std::string all;
+}
+
+/// As textures of renderers have it: tiles, and all levels.
+void describe_tiles(OIIO::ImageSpec& spec, const SphparamImageFile& file) {
+  spec.tile_width = spec.tile_height = file.tile;
+  spec.tile_depth = 1;
+  spec.attribute("textureformat", "Plain Texture");
+  spec.attribute("openexr:levelmode", 1);     // mipmap
+  spec.attribute("openexr:roundingmode", 0);  // down
+  if (file.wraps) spec.attribute("wrapmodes", "periodic,clamp");
+}
+
+void add_texts(OIIO::ImageSpec& spec, const SphparamImageFile& file, const std::string& format) {
+  std::string ours;
   for (size_t i = 0; i < file.metadata_count; ++i) {
     const std::string name = file.metadata[2 * i], value = file.metadata[2 * i + 1];
     if (format != "png" || !sphparam::needs_utf8(value)) spec.attribute(name, value);
-    if (name.starts_with("sphparam:")) all += (all.empty() ? "" : "\n") + name + "=" + value;
+    if (name.starts_with("sphparam:")) ours += (ours.empty() ? "" : "\n") + name + "=" + value;
   }
+  // JPEG and TIFF have no place for names of ours.
   const bool one_text = format == "jpeg" || format == "tiff";
-  if (one_text && !all.empty()) spec.attribute("ImageDescription", all);
+  if (one_text && !ours.empty()) spec.attribute("ImageDescription", ours);
+}
+
+OIIO::ImageSpec spec_of(const SphparamImageFile& file) {
+  const std::string format = file.format;
+  OIIO::ImageSpec spec(file.width, file.height, file.channels, OIIO::TypeDesc(file.sample_type));
+  describe_format(spec, format);
+  if (file.tile > 0) describe_tiles(spec, file);
+  add_texts(spec, file, format);
   return spec;
 }
 
