@@ -102,6 +102,19 @@ int status_of(pid_t child) {
   return status;
 }
 
+/// What the child made; `status`: how it ended. Throws: ChildEnded; what it failed with.
+std::string answer_in(std::string bytes, int status, const ChildLimits& limits) {
+  if (WIFSIGNALED(status))
+    throw ChildEnded(WTERMSIG(status) == SIGXCPU
+                         ? "takes more than " + std::to_string(limits.seconds) + " s"
+                         : std::string("ended by ") + ::strsignal(WTERMSIG(status)));
+  if (status != 0 || bytes.empty()) throw ChildEnded("ended, perhaps for lack of memory");
+  const bool is_done = bytes.front() == done;
+  bytes.erase(0, 1);
+  if (!is_done) throw std::runtime_error(bytes);
+  return bytes;
+}
+
 }  // namespace
 
 std::string result_of_child(const std::function<std::string()>& work, const ChildLimits& limits) {
@@ -129,16 +142,7 @@ std::string result_of_child(const std::function<std::string()>& work, const Chil
     throw;
   }
   ::close(ends[0]);
-  const int status = status_of(child);
-  if (WIFSIGNALED(status))
-    throw ChildEnded(WTERMSIG(status) == SIGXCPU
-                         ? "takes more than " + std::to_string(limits.seconds) + " s"
-                         : std::string("ended by ") + ::strsignal(WTERMSIG(status)));
-  if (status != 0 || bytes.empty()) throw ChildEnded("ended, perhaps for lack of memory");
-  const bool is_done = bytes.front() == done;
-  bytes.erase(0, 1);
-  if (!is_done) throw std::runtime_error(bytes);
-  return bytes;
+  return answer_in(std::move(bytes), status_of(child), limits);
 }
 
 }  // namespace sphparam
