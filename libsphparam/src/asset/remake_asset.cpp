@@ -249,43 +249,52 @@ void tell_missing_libraries(std::vector<std::string>& told, const MeshFile& file
 }
 
 /// Takes images that cannot be used from the materials, which keep their factors; tells of each.
-std::vector<std::string> drop_unusable_images(MeshFile& file) {
-  std::vector<std::string> told;
-  std::map<ImageOrigin, std::string> known;  // why not
-  const std::string no_texcoords = "the mesh has no texture coordinates";
-  const bool has_places = has_texcoords(file);
-  const auto placeless = [&](const MaterialTexture& texture) {
-    return !has_places && !texture.second && !texture.image.empty();
-  };
-  const auto cached = [&](const MaterialTexture& texture) {
-    if (texture.image.empty()) return std::string();
+class UnusableImages {
+ public:
+  explicit UnusableImages(MeshFile& file) : file_(file), has_places_(has_texcoords(file)) {}
+
+  std::vector<std::string> drop() {
+    for (size_t i = 0; i < file_.base_colours.size(); ++i) check_colour(file_.base_colours[i], i);
+    for (size_t i = 0; i < file_.channels.size(); ++i)
+      for (MaterialTexture* texture : file_.channels[i].textures()) check(*texture, i);
+    std::ranges::sort(told_);
+    told_.erase(std::unique(told_.begin(), told_.end()), told_.end());
+    return std::move(told_);
+  }
+
+ private:
+  /// Empty: it can be used, or there is none. Images are looked at once.
+  std::string why_not(const MaterialTexture& texture) {
+    if (texture.image.empty()) return "";
+    if (!has_places_ && !texture.second) return "the mesh has no texture coordinates";
     if (!texture.problem.empty()) return texture.problem;
-    const auto [found, is_new] = known.try_emplace(origin_of(texture));
+    const auto [found, is_new] = known_.try_emplace(origin_of(texture));
     if (is_new) found->second = why_unusable(texture);
     return found->second;
-  };
-  const auto check = [&](MaterialTexture& texture, size_t material) {
-    const std::string why = placeless(texture) ? no_texcoords : cached(texture);
+  }
+
+  void check(MaterialTexture& texture, size_t material) {
+    const std::string why = why_not(texture);
     if (why.empty()) return;
-    told.push_back("not carried: " + texture.image + " of material " + file.materials[material] +
-                   ": " + why);
+    told_.push_back("not carried: " + texture.image + " of material " + file_.materials[material] +
+                    ": " + why);
     static const MaterialChannels none;
-    leave_out_image(texture, material < file.channels.size() ? file.channels[material] : none);
-  };
-  const auto check_colour = [&](MaterialTexture& colour, size_t material) {
+    leave_out_image(texture, material < file_.channels.size() ? file_.channels[material] : none);
+  }
+
+  void check_colour(MaterialTexture& colour, size_t material) {
     const bool had_image = !colour.image.empty();
     check(colour, material);
     if (!had_image || !colour.image.empty()) return;
-    if (const auto diffuse = diffuse_beside_texture(file, file.materials[material]))
+    if (const auto diffuse = diffuse_beside_texture(file_, file_.materials[material]))
       std::ranges::copy(*diffuse, colour.factor.begin());
-  };
-  for (size_t i = 0; i < file.base_colours.size(); ++i) check_colour(file.base_colours[i], i);
-  for (size_t i = 0; i < file.channels.size(); ++i)
-    for (MaterialTexture* texture : file.channels[i].textures()) check(*texture, i);
-  std::ranges::sort(told);
-  told.erase(std::unique(told.begin(), told.end()), told.end());
-  return told;
-}
+  }
+
+  MeshFile& file_;
+  const bool has_places_;
+  std::map<ImageOrigin, std::string> known_;  // why not
+  std::vector<std::string> told_;
+};
 
 /// glTF says what meshes without materials look like; others get their occlusion to be seen by.
 void add_default_material(MeshFile& file) {
@@ -317,7 +326,7 @@ RemadeAsset remake_asset(const MeshSource& asset, const std::string& folder,
                          const RemakeOptions& options, PendingFiles& files) {
   require_domain(options);
   MeshSource usable = asset;
-  std::vector<std::string> told = drop_unusable_images(usable.file);
+  std::vector<std::string> told = UnusableImages(usable.file).drop();
   tell_missing_libraries(told, usable.file);
   add_face_colour_loss(told, usable.file);
   add_default_material(usable.file);
