@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
-#include <stdexcept>
 
 #include "arguments/limits.h"
 #include "arguments/texture_arguments.h"

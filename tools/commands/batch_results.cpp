@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <string_view>
 
 #include "arguments/mesh_names.h"
 #include "arguments/numbers.h"

@@ -1,7 +1,6 @@
 // What became of an asset, as JSON and in words.
 
 #include <algorithm>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "number_text.h"

@@ -3,7 +3,6 @@
 // columns: all others are the same for every run.
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>

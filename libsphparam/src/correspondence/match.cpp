@@ -1,7 +1,6 @@
 #include "sphparam/correspondence/match.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <set>
 #include <utility>

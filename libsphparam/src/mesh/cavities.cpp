@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <tuple>
 
 #include "mesh/box.h"
 #include "mesh/face_boxes.h"

@@ -1,6 +1,5 @@
 #include "sphere/body_centre.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 

@@ -6,7 +6,6 @@
 #include "wrap/drawing_in.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 #include <vector>
 

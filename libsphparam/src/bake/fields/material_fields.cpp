@@ -4,7 +4,6 @@
 #include "bake/fields/material_fields.h"
 
 #include <algorithm>
-#include <array>
 #include <memory>
 
 #include "bake/fields/texture_line.h"

@@ -1,6 +1,5 @@
 #include "io/formats/freesurfer_reader.h"
 
-#include <cmath>
 #include <cstdint>
 
 #include "io/files/byte_reader.h"

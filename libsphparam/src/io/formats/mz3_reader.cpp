@@ -1,6 +1,5 @@
 #include "io/formats/mz3_reader.h"
 
-#include <cmath>
 #include <cstdint>
 
 #include "io/files/byte_reader.h"

@@ -1,12 +1,9 @@
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
-#include "mesh/box.h"
 #include "mesh/flat_face.h"
 #include "mesh/repair/paired_faces.h"
 #include "mesh/repair/repair_state.h"
-#include "mesh/unit_size.h"
 #include "sphparam/mesh/topology.h"
 
 // A flat face with two vertices at one place loses the edge between them, if the surface stays what

@@ -1,6 +1,5 @@
 #include "io/formats/gifti/gifti_labels.h"
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 
