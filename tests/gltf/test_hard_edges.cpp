@@ -230,7 +230,9 @@ TEST_CASE(
 TEST_CASE("hard edges: those of a mesh are none of the sphere that is shown in its place") {
   Charted egg({}, 2);
   const auto vertices = [&](ShapeKind shape) {
-    return make_asset(mapped(egg.file, egg.map), {.shape = shape}).levels[0].vertex_count();
+    return make_asset(mapped(egg.file, egg.map), {.look = {.image_width = 16}, .shape = shape})
+        .levels[0]
+        .vertex_count();
   };
   const auto smooth = vertices(ShapeKind::Mesh), sphere = vertices(ShapeKind::Sphere);
   CHECK(smooth == sphere);
