@@ -136,6 +136,36 @@ TEST_CASE("group: everything is written, every map proved, and the length is the
   CHECK_THAT(bytes_of(eggs.in_out("index.html")), Contains("egg1") && Contains("image/png"));
 }
 
+TEST_CASE(
+    "group: --mirror takes a mirror image as such, and tells it, and a landmark may be a point") {
+  const Eggs eggs;
+  MeshFile second = read_mesh(eggs.paths[1]);
+  second.mesh.positions.col(2) *= -1;
+  second.mesh.triangles.col(1).swap(second.mesh.triangles.col(2));
+  write_bytes(eggs.paths[1], obj_text(second.mesh));
+  const Vector3 tip = read_mesh(eggs.paths[0]).mesh.position(17) + Vector3(0, 0, 0.015625);
+  std::ostringstream marks;
+  marks.precision(17);
+  marks << tip.transpose() << " tip\n";
+  write_bytes(eggs.folder / "marks.txt", marks.str());
+  const Ended ended = eggs.group(
+      {"--mirror", "--size", "0", "--rounds", "0", "--landmarks", eggs.folder / "marks.txt"});
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.err,
+             Contains("3 shapes on ico:3, of egg1 the mirror image, all maps certified") &&
+                 Contains("marks.txt: 1 point is taken for the vertex nearest to it, "
+                          "0.0156 away ("));
+  const Json report = Json::parse(bytes_of(eggs.in_out("group.json")));
+  CHECK(report["mirror"] == true);
+  CHECK(report["landmarks"][0] == Json{{"name", "tip"}, {"vertex", 17}, {"distance", 0.015625}});
+  const auto rows = lines_of(bytes_of(eggs.in_out("shapes.tsv")));
+  for (size_t i = 0; i < 3; ++i) {
+    CHECK(report["shapes"][i]["mirrored"] == (i == 1));
+    CHECK(cells_of(rows[i + 1]).rbegin()[3] == (i == 1 ? "1" : "0"));
+  }
+  CHECK_THAT(bytes_of(eggs.in_out("index.html")), Contains(", mirrored"));
+}
+
 TEST_CASE("group: tables have a row a shape, a vertex, a landmark, and a header") {
   const Eggs eggs;
   write_bytes(eggs.folder / "marks.txt", "0 tip of it\n17\n");

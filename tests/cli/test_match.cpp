@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
+#include <sstream>
 #include <string>
 
 #include "program.h"
@@ -187,6 +188,33 @@ TEST_CASE("match --repair: where faces were turned it is told what writes those 
   CHECK_THAT(ended.err, Contains("out.ply: target_face numbers the triangles of B as it was "
                                  "mapped, which `sphparam repair ") &&
                             Contains("second.obj --repair -o MENDED` writes"));
+}
+
+TEST_CASE(
+    "match: points in space are landmarks at the vertices nearest to them, and told how far") {
+  const Creatures creatures;
+  REQUIRE(creatures.match().code == 0);
+  const std::string by_numbers = bytes_of(creatures.out);
+  const Points one = read_mesh(creatures.first).mesh.positions,
+               other = read_mesh(creatures.second).mesh.positions;
+  const auto write_points = [&](double off) {
+    std::ostringstream text;
+    text.precision(17);
+    for (const int v : {0, 3, 5, 8, 10})
+      text << one.row(v) << " " << other.row(v) + Eigen::RowVector3d(0, 0, off) << "\n";
+    write_bytes(creatures.pairs, text.str());
+  };
+  write_points(0.0078125);
+  const Ended ended = creatures.match();
+  REQUIRE(ended.code == 0);
+  CHECK(bytes_of(creatures.out) == by_numbers);
+  CHECK_THAT(ended.err,
+             Contains("pairs.txt: 10 points are taken for the vertices nearest to them, at most "
+                      "0.00781 away (") &&
+                 Contains(" of the diagonal; line ") && Contains(", second mesh)") &&
+                 !Contains("in the coordinates of these meshes?"));
+  write_points(0.25);
+  CHECK_THAT(creatures.match().err, Contains("in the coordinates of these meshes?"));
 }
 
 TEST_CASE("match: shapes and values of the other are carried over") {

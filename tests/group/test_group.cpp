@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "sphparam/correspondence/map_alignment.h"
+#include "sphparam/correspondence/matched_files.h"
 #include "sphparam/correspondence/surface_map.h"
 #include "sphparam/errors.h"
 #include "sphparam/group/group.h"
@@ -499,4 +500,28 @@ TEST_CASE("group: what makes no sense is refused, and work can be cancelled") {
       make_group({shape, shape}, shape,
                  {.grid = small_grid, .progress = [](std::string_view, double) { return false; }}),
       Cancelled);
+}
+
+TEST_CASE("group: mirror images are taken as such where that is asked for, and told") {
+  const TriangleMesh shape = bumpy(middle_grid);
+  std::vector<MappedMesh> shapes = copies(shape);
+  const Group without = make_group(shapes, shapes[0], {.mirror = true, .grid = middle_grid});
+  for (const GroupMember& member : without.members) CHECK_FALSE(member.mirrored);
+  shapes[1] = mirror_image(shapes[1]);
+  for (const GroupStart start : {GroupStart::Ends, GroupStart::Rotation, GroupStart::Ellipsoid}) {
+    for (const bool hold : {false, true}) {
+      const Group group = make_group(
+          shapes, shapes[0],
+          {.start = start, .mirror = true, .hold = hold, .rounds = 0, .grid = middle_grid});
+      CHECK(group.members[1].mirrored);
+      CHECK_FALSE(group.members[0].mirrored);
+      CHECK_FALSE(group.members[2].mirrored);
+      CHECK(group.distances.maxCoeff() < 0.02);
+      CHECK(group.members[1].mapped.mesh().positions == mirror_image(shapes[1]).mesh().positions);
+      CHECK(group.members[1].mapped.certificate().bijective());
+    }
+  }
+  const Group apart = make_group(shapes, shapes[0], {.rounds = 0, .grid = middle_grid});
+  CHECK_FALSE(apart.members[1].mirrored);
+  CHECK(apart.distances(0, 1) > 0.1);
 }

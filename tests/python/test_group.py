@@ -67,6 +67,8 @@ def test_landmarks_of_the_template_are_found_on_all_shapes(group, shapes):
         away = np.linalg.norm(shape.vertices[:, None] - places.points[i], axis=2)
         assert (away.argmin(0) == places.nearest[i]).all()
     assert (places.points[:, 0] == places.points[:, 2]).all()
+    near = group.landmarks(1.001 * group.template.vertices[[3, 40, 3]])
+    assert all((a == b).all() for a, b in zip(near, places))
     assert group.landmarks([]).points.shape == (3, 0, 3)
     with pytest.raises(ValueError, match="vertices: 0 to"):
         group.landmarks([len(group.template.vertices)])

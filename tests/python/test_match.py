@@ -36,6 +36,18 @@ def test_landmarks_are_met_exactly_and_both_maps_are_proved(maps):
     assert (s.target.points == maps[1].points).all() and (s.target.vertices == maps[1].vertices).all()
 
 
+def test_landmarks_may_be_points_near_the_vertices(maps):
+    pairs = landmarks(maps)
+    points = np.array([(1.001 * maps[0].vertices[a], 0.999 * maps[1].vertices[b]) for a, b in pairs])
+    by_points, by_numbers = sp.match(*maps, points), sp.match(*maps, pairs)
+    assert (by_points.source.points == by_numbers.source.points).all()
+    points[2, 1] *= 1.5
+    with pytest.warns(sp.LossWarning, match="landmarks: a point is .* away from the nearest vertex of"):
+        sp.match(*maps, points)
+    with pytest.raises(ValueError, match="landmarks: two vertices a row"):
+        sp.match(*maps, np.zeros((3, 3, 2), int))
+
+
 def test_forth_and_back_are_what_carry_and_carry_back_read(maps):
     s = sp.match(*maps, landmarks(maps))
     face, weights = s.back()

@@ -88,8 +88,9 @@ void declare_options(Declaration& command, MatchArguments& arguments) {
               "A with its map on B's sphere, target_face and target_0, target_1, target_2 (.ply, "
               ".vtk, .vtp); or that sphere alone (.gii, .mz3)")
       .text("--landmarks", arguments.landmarks, "FILE",
-            "Vertices that go to vertices, a pair a line: of A, of B (default: ends of A and B are "
-            "paired)")
+            "Vertices that go to vertices, or points, a pair a line: of A, of B (default: ends of "
+            "A and "
+            "B are paired)")
       .list(
           "--features", arguments.features, "OF_A,OF_B,…",
           "Numbers a vertex that are to agree, such as sulcal depth: files (.shape.gii, .func.gii, "

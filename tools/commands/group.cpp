@@ -15,6 +15,7 @@
 #include "console/places.h"
 #include "io/shell_word.h"
 #include "number_text.h"
+#include "reports/snapped_wording.h"
 #include "reports/told_losses.h"
 #include "sphparam/batch/inputs.h"
 #include "sphparam/group/template_landmarks.h"
@@ -155,6 +156,7 @@ std::vector<ReadShape> read_shapes(const GroupArguments& arguments, const ReadSh
 /// A left and a right hemisphere are mirror images of each other, which no map is brought to.
 void tell_hemispheres(const GroupArguments& arguments, const MappedMesh& reference,
                       const std::vector<MappedMesh>& shapes, Session& session) {
+  if (arguments.options.mirror) return;
   std::map<std::string, std::set<std::string>> sides;
   const auto add = [&](const std::string& path, const MappedMesh& mapped) {
     sides[structure_of(mapped.file(), path)].insert(path);
@@ -166,7 +168,9 @@ void tell_hemispheres(const GroupArguments& arguments, const MappedMesh& referen
   session.warn({counted(std::ssize(left), "surface") + " of CortexLeft (" + *left.begin() +
                 (left.size() > 1 ? ", …" : "") + ") and " + std::to_string(right.size()) +
                 " of CortexRight (" + *right.begin() + (right.size() > 1 ? ", …" : "") +
-                ") in one group: they are mirror images, which it takes for shapes that differ"});
+                ") in one group: they are mirror images, which it takes for shapes that differ; "
+                "--mirror takes "
+                "those of one side as their mirror images"});
 }
 
 std::vector<bool> mapped_now(const std::vector<MappedMesh>& shapes) {
@@ -251,8 +255,11 @@ struct ReadGroup {
 ReadGroup read_group(const GroupArguments& arguments, Session& session) {
   ReadGroup read{.reference = read_shape(reference_of(arguments), arguments, session)};
   const MappedMesh& reference = read.reference.mapped;
-  if (!arguments.landmarks.empty())  // before all others: a slip should not cost hours
-    read.landmarks = read_template_landmarks(arguments.landmarks, FileNumbers(reference.file()));
+  if (!arguments.landmarks.empty()) {  // before all others: a slip should not cost hours
+    TemplateLandmarks found = read_template_landmarks(arguments.landmarks, reference.file());
+    tell_snapped(arguments.landmarks, found.snapped, session);
+    read.landmarks = std::move(found.landmarks);
+  }
   for (ReadShape& shape : read_shapes(arguments, read.reference, session)) {
     read.shapes.push_back(std::move(shape.mapped));
     read.mended.push_back(std::move(shape.mended));
@@ -329,6 +336,9 @@ void declare_options(Declaration& command, GroupArguments& arguments) {
           "ends)")
       .flag("--alike", arguments.options.alike,
             "The shapes lie alike in space: ends and rotations are also judged by where places are")
+      .flag("--mirror", arguments.options.mirror,
+            "Shapes may be mirror images, as right hands among left ones: each is taken as its own "
+            "mirror image where that fits the template clearly better, which is told")
       .flag("--hold", arguments.options.hold,
             "Maps are only turned, or stay: no distortion is minimised")
       .number("--rounds", arguments.options.rounds, "N", {0, 20},
@@ -337,8 +347,10 @@ void declare_options(Declaration& command, GroupArguments& arguments) {
             "Of triangles, on which shapes are resampled; template: its own triangles")
       .flag("--scale", arguments.options.scale, "Bring all shapes to one size")
       .number("--modes", arguments.options.modes, "N", {0, 100}, "At most so many are kept")
-      .text("--landmarks", arguments.landmarks, "FILE",
-            "Vertices of the template, one a line and a name after it, to be found on all shapes")
+      .text(
+          "--landmarks", arguments.landmarks, "FILE",
+          "Vertices of the template, or points, one a line and a name after it, to be found on all "
+          "shapes")
       .choice("--energy", arguments.options.energy.kind, energy_words,
               "What is minimised, as of match (default: symmetric-dirichlet)")
       .up(arguments.up)

@@ -11,6 +11,7 @@
 #include "commands/sources.h"
 #include "console/console.h"
 #include "console/places.h"
+#include "reports/snapped_wording.h"
 #include "reports/told_losses.h"
 #include "sphparam/correspondence/feature_file.h"
 #include "sphparam/correspondence/landmark_file.h"
@@ -135,8 +136,9 @@ Surfaces read_surfaces(MatchArguments& arguments, const std::optional<LandmarkFi
              second = read_side(b, arguments.repair, session);
   if (landmarks) {
     for (const MeshSource* source : {&first, &second}) tell_other_numbers(*source, session.console);
-    arguments.options.landmarks =
-        landmarks->pairs(FileNumbers(first.file), FileNumbers(second.file));
+    LandmarkFile::Found found = landmarks->pairs(first.file, second.file);
+    tell_snapped(arguments.landmarks, found.snapped, session);
+    arguments.options.landmarks = std::move(found.pairs);
   }
   read_features_of(arguments, first.file, second.file);
   std::optional<std::vector<long>> rows = rows_in_file(second);

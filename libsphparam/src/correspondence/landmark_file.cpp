@@ -6,34 +6,44 @@
 #include "io/files/file_bytes.h"
 #include "io/files/text_scanner.h"
 #include "io/files/vertex_number.h"
+#include "sphparam/io/file_numbers.h"
 
 namespace sphparam {
 namespace {
 
 constexpr char line_is[] =
     "a vertex of the first mesh and one of the second, by their numbers in the files, from 0, as "
-    "in `512 90`; coordinates are not taken";
+    "in `512 90`, or a point of each, in six numbers";
+constexpr std::size_t numbers_of_points = 6;
 
 /// The vertices of one side, and the lines they are in.
 class Side {
  public:
-  Side(std::string which, const FileNumbers& numbers)
-      : which_(std::move(which)), numbers_(numbers) {}
+  Side(std::string which, const MeshFile& file)
+      : which_(std::move(which)), numbers_(file), places_(file) {}
 
   /// Throws: std::invalid_argument that says why it is none.
-  Vertex vertex(long number, long line) {
-    const Vertex vertex = numbers_.vertex(number);
-    if (vertex < 0) throw std::invalid_argument(which_ + " mesh: " + numbers_.absence(number));
-    const auto [earlier, is_new] = lines_.emplace(vertex, line);
-    if (is_new) return vertex;
-    throw std::invalid_argument("vertex " + std::to_string(number) + " of the " + which_ +
-                                " mesh is in two pairs, first in line " +
-                                std::to_string(earlier->second));
+  Vertex vertex(const VertexPlace& place, long line, SnappedPoints& snapped) {
+    const FoundVertex found = found_at(place);
+    const auto [earlier, is_new] = lines_.emplace(found.vertex, line);
+    if (!is_new)
+      throw std::invalid_argument("vertex " + std::to_string(numbers_.number(found.vertex)) +
+                                  " of the " + which_ + " mesh is in two pairs, first in line " +
+                                  std::to_string(earlier->second));
+    snapped.add(found, "line " + std::to_string(line) + ", " + which_ + " mesh");
+    return found.vertex;
   }
 
  private:
+  FoundVertex found_at(const VertexPlace& place) const try {
+    return places_.at(place);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(which_ + " mesh: " + error.what());
+  }
+
   std::string which_;
-  const FileNumbers& numbers_;
+  FileNumbers numbers_;
+  VertexPlaces places_;
   std::unordered_map<Vertex, long> lines_;
 };
 
@@ -52,10 +62,15 @@ void LandmarkFile::parse(std::string_view text, const std::string& name) {
   TextScanner scanner(text, name, limits);
   scanner.require_text();
   while (scanner.next_filled_line()) {
-    const long first = vertex_number(scanner, line_is), second = vertex_number(scanner, line_is);
+    const bool are_points = words_ahead(scanner).size() == numbers_of_points;
+    const auto place = [&]() -> VertexPlace {
+      if (are_points) return {.point = point_in(scanner)};
+      return {.number = vertex_number(scanner, line_is)};
+    };
+    VertexPlace first = place(), second = place();
     if (!scanner.at_line_end())
       scanner.fail("expected a vertex of the first mesh and one of the second, then nothing");
-    lines_.push_back({first, second, scanner.line_number()});
+    lines_.push_back({std::move(first), std::move(second), scanner.line_number()});
   }
   if (lines_.empty()) {
     throw ReadError(name,
@@ -64,19 +79,19 @@ void LandmarkFile::parse(std::string_view text, const std::string& name) {
   }
 }
 
-std::vector<LandmarkPair> LandmarkFile::pairs(const FileNumbers& from,
-                                              const FileNumbers& to) const {
+LandmarkFile::Found LandmarkFile::pairs(const MeshFile& from, const MeshFile& to) const {
   Side first("first", from), second("second", to);
-  std::vector<LandmarkPair> pairs;
+  Found found;
   for (const Line& line : lines_) {
     try {
-      pairs.push_back(
-          {first.vertex(line.first, line.number), second.vertex(line.second, line.number)});
+      const Vertex one = first.vertex(line.first, line.number, found.snapped),
+                   other = second.vertex(line.second, line.number, found.snapped);
+      found.pairs.push_back({one, other});
     } catch (const std::invalid_argument& error) {
       throw ReadError::at_line(name_, line.number, error.what());
     }
   }
-  return pairs;
+  return found;
 }
 
 }  // namespace sphparam

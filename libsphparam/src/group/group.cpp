@@ -162,7 +162,7 @@ class GroupWork {
     work.run(stage, [&](size_t i) {
       const bool is_target = &begun(i).mesh() == &mapped.mesh();
       brought[i] = is_target ? Brought{.mapped = mapped, .start = "template"}
-                             : bring_to(target, begun(i), start, options_.hold, match);
+                             : bring(target, begun(i), start, match);
       keep_first_words(i, *brought[i]);
     });
     brought_ = std::move(brought);
@@ -175,6 +175,15 @@ class GroupWork {
     brought.start = before.start;
     brought.confidence = before.confidence;
     brought.doubts = before.doubts;
+    brought.mirrored = before.mirrored;
+  }
+
+  /// Mirror images are decided on once: of what is brought to the template.
+  Brought bring(const GroupTarget& target, const MappedMesh& shape, GroupStart start,
+                const MatchOptions& match) const {
+    const bool either = options_.mirror && brought_.empty();
+    return either ? bring_either_to(target, shape, start, options_.hold, match)
+                  : bring_to(target, shape, start, options_.hold, match);
   }
 
   const MappedMesh& brought_reference() const {
@@ -239,7 +248,8 @@ class GroupWork {
                         .start = std::move(brought.start),
                         .energy = brought.energy,
                         .confidence = brought.confidence,
-                        .warnings = std::move(brought.doubts)});
+                        .warnings = std::move(brought.doubts),
+                        .mirrored = brought.mirrored});
       std::vector<std::string>& warnings = result.back().warnings;
       std::ranges::move(brought.warnings, std::back_inserter(warnings));
       add_match_loss(warnings, shapes_[i].file());

@@ -6,7 +6,11 @@
 #include "correspondence/matchable.h"
 #include "correspondence/stance.h"
 #include "number_text.h"
+#include "sphparam/correspondence/carried_shape.h"
 #include "sphparam/correspondence/map_alignment.h"
+#include "sphparam/correspondence/matched_files.h"
+#include "sphparam/embedding/distortion_energy.h"
+#include "sphparam/mesh/vertex_areas.h"
 #include "sphparam/sphere/first_order_alignment.h"
 #include "sphparam/sphere/spherical_harmonics.h"
 
@@ -16,6 +20,7 @@ namespace {
 constexpr int degree = 12;  // of the harmonics that tell how a shape lies
 constexpr int tried_turns = 4;
 constexpr double clear_correlation = 0.3, clear_difference = 0.05;
+constexpr double clearly_better = 0.9;  // times as far from fitting, or less
 constexpr char what_to_do[] =
     "look at its correspondence; where it is wrong, --start ends or ellipsoid, or landmarks by "
     "match, bring it right";
@@ -101,6 +106,26 @@ Brought by_ends(const GroupTarget& target, const MappedMesh& shape, MatchOptions
   return found;
 }
 
+/// Σ area · distance² of a shape's vertices from their points on the target, moved and scaled.
+double squares_apart(const Brought& brought, const GroupTarget& target, int threads) {
+  const SurfaceMap map(brought.mapped, target.mapped);
+  const Points there =
+      moved(map.from_on_to(threads).positions, placement_on(map, Placement::Scaled, threads));
+  const VectorX areas = vertex_areas(brought.mapped.surface());
+  return areas.dot((there - brought.mapped.mesh().positions).rowwise().squaredNorm());
+}
+
+/// Whether the one fits clearly better than the other.
+bool fits_better(const Brought& one, const Brought& other, const GroupTarget& target,
+                 const MatchOptions& options) {
+  if (one.energy > 0 && other.energy > 0) {
+    const double isometric = differentiate(options.energy, 1, 1).f;
+    return one.energy - isometric < clearly_better * (other.energy - isometric);
+  }
+  return squares_apart(one, target, options.threads) <
+         clearly_better * clearly_better * squares_apart(other, target, options.threads);
+}
+
 }  // namespace
 
 GroupTarget group_target(const MappedMesh& mapped, GroupStart start, bool alike, int threads) {
@@ -130,6 +155,15 @@ Brought bring_to(const GroupTarget& target, const MappedMesh& shape, GroupStart 
   result.doubts = std::move(begun.doubts);
   result.confidence = std::min(result.confidence, begun.confidence);
   return result;
+}
+
+Brought bring_either_to(const GroupTarget& target, const MappedMesh& shape, GroupStart start,
+                        bool hold, const MatchOptions& options) {
+  Brought own = bring_to(target, shape, start, hold, options);
+  Brought image = bring_to(target, mirror_image(shape, options.threads), start, hold, options);
+  if (!fits_better(image, own, target, options)) return own;
+  image.mirrored = true;
+  return image;
 }
 
 }  // namespace sphparam

@@ -27,6 +27,7 @@ struct Brought {
   std::string start;
   double energy = 0, confidence = 1;
   std::vector<std::string> doubts = {}, warnings = {};  // of the start, of the last minimisation
+  bool mirrored = false;
 };
 
 /// Moves the map of a shape to that of the target: from `start` on, then, unless that is to be
@@ -34,5 +35,10 @@ struct Brought {
 /// folds by rounding; as `match_surfaces`.
 Brought bring_to(const GroupTarget& target, const MappedMesh& shape, GroupStart start, bool hold,
                  const MatchOptions& options);
+
+/// The same of the shape, or of its mirror image where that fits clearly better: see
+/// `GroupOptions::mirror`. Cost: twice that, and a pass.
+Brought bring_either_to(const GroupTarget& target, const MappedMesh& shape, GroupStart start,
+                        bool hold, const MatchOptions& options);
 
 }  // namespace sphparam

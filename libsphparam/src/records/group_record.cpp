@@ -9,10 +9,10 @@
 #include <string_view>
 
 #include "free_name.h"
+#include "io/files/nearest_vertex.h"
 #include "mesh/vertex_normals.h"
 #include "number_text.h"
 #include "records/json_parts.h"
-#include "records/nearest_vertex.h"
 #include "sphparam/correspondence/surface_map.h"
 #include "sphparam/group/surface_size.h"
 #include "sphparam/io/brain_names.h"
@@ -102,6 +102,7 @@ Json member_json(const GroupRecord& record, size_t i) {
                {"triangles", member.mapped.mesh().face_count()},
                {"mapped_now", record.mapped_now[i]},
                {"start", member.start},
+               {"mirrored", member.mirrored},
                {"confidence", member.confidence},
                {"energy", member.energy > 0 ? Json(member.energy) : Json(nullptr)},
                {"certificate", certificate_json(member.mapped.certificate())},
@@ -255,13 +256,16 @@ std::string to_json(const GroupRecord& record) {
   for (size_t i = 0; i < group.members.size(); ++i) members.push_back(member_json(record, i));
   const FileNumbers numbers(group.reference.file());
   for (const TemplateLandmark& landmark : record.landmarks)
-    landmarks.push_back({{"name", landmark.name}, {"vertex", numbers.number(landmark.vertex)}});
+    landmarks.push_back({{"name", landmark.name},
+                         {"vertex", numbers.number(landmark.vertex)},
+                         {"distance", landmark.distance ? Json(*landmark.distance) : Json()}});
   const Json json = {{"sphparam", version},
                      {"command", "group"},
                      {"template", record.reference},
                      {"template_mended", reference_mended_json(record)},
                      {"start", name_of(record.options.start)},
                      {"alike", record.options.alike},
+                     {"mirror", record.options.mirror},
                      {"hold", record.options.hold},
                      {"rounds", record.options.hold ? 0 : record.options.rounds},
                      {"grid", grid_name(record.options)},
@@ -284,7 +288,7 @@ std::string to_json(const GroupRecord& record) {
 std::string shapes_table(const GroupRecord& record) {
   std::vector<std::string> header{"shape", "start", "energy", "size", "distance_from_mean"};
   for (std::string& name : mode_names(record.group, "mode")) header.push_back(std::move(name));
-  header.insert(header.end(), {"confidence", "repairs", "file"});
+  header.insert(header.end(), {"mirrored", "confidence", "repairs", "file"});
   std::string text = row(header);
   for (size_t i = 0; i < record.names.size(); ++i) {
     const GroupMember& member = record.group.members[i];
@@ -293,6 +297,7 @@ std::string shapes_table(const GroupRecord& record) {
         shortest(member.size), shortest(distance_from_mean(record.group, i))};
     for (Eigen::Index k = 0; k < record.group.modes.scores.cols(); ++k)
       cells.push_back(shortest(record.group.modes.scores(static_cast<Eigen::Index>(i), k)));
+    cells.push_back(member.mirrored ? "1" : "0");
     cells.push_back(shortest(member.confidence));
     cells.push_back(repairs_text(mended_of(record, i)));
     cells.push_back(record.files[i]);
@@ -363,15 +368,25 @@ std::string landmarks_table(const GroupRecord& record) {
   return text;
 }
 
+/// Empty where mirror images were not asked for.
+std::string mirrored_words(const GroupRecord& record) {
+  if (!record.options.mirror) return "";
+  std::vector<std::string> mirrored;
+  for (size_t i = 0; i < record.names.size(); ++i)
+    if (record.group.members[i].mirrored) mirrored.push_back(record.names[i]);
+  return mirrored.empty() ? ", none mirrored"
+                          : ", of " + enumerated(mirrored) + " the mirror image";
+}
+
 std::string to_text(const GroupRecord& record) {
   const Group& group = record.group;
   const double size = size_of_mean(group), distance = rms_distance_from_mean(group);
   const std::string grid =
       record.options.grid ? grid_name(record.options) : "the template's triangles";
   return counted(static_cast<long>(record.names.size()), "shape") + " on " + grid +
-         ", all maps certified; RMS distance from the mean " + short_number(distance) + " (" +
-         percent(size > 0 ? distance / size : 0) + " of its size " + short_number(size) + "), " +
-         short_number(record.seconds) + " s";
+         mirrored_words(record) + ", all maps certified; RMS distance from the mean " +
+         short_number(distance) + " (" + percent(size > 0 ? distance / size : 0) + " of its size " +
+         short_number(size) + "), " + short_number(record.seconds) + " s";
 }
 
 std::vector<std::string> mode_lines(const GroupRecord& record) {

@@ -180,7 +180,8 @@ class GroupPage {
       shapes.header.push_back("mode " + std::to_string(k + 1));
     for (size_t i = 0; i < record_.names.size(); ++i) {
       const GroupMember& member = group_.members[i];
-      shapes.rows.push_back({record_.names[i], member.start, short_number(member.confidence),
+      const std::string begun_with = member.start + (member.mirrored ? ", mirrored" : "");
+      shapes.rows.push_back({record_.names[i], begun_with, short_number(member.confidence),
                              member.energy > 0 ? short_number(member.energy, 4) : "–",
                              short_number(member.size), short_number(distance_from_mean(group_, i)),
                              short_number(member.resampling_rms),

@@ -22,6 +22,7 @@ GroupOptions options_of(const py::dict& values) {
             by_name(
                 {GroupStart::Ends, GroupStart::Rotation, GroupStart::Ellipsoid, GroupStart::Maps}))
       .take("alike", options.alike)
+      .take("mirror", options.mirror)
       .take("hold", options.hold)
       .take("rounds", options.rounds)
       .take("grid", grid)
@@ -42,6 +43,7 @@ py::dict member_of(const GroupMember& member) {
   dict["size"] = member.size;
   dict["start"] = member.start;
   dict["energy"] = member.energy;
+  dict["mirrored"] = member.mirrored;
   dict["confidence"] = member.confidence;
   dict["resampling_rms"] = member.resampling_rms;
   dict["resampling_max"] = member.resampling_max;

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence, Tuple
+from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence, Tuple, Union
 
 from . import _arrays, _core
 from ._attributes import document
 from ._figures import GroupScalar, Landmarks
 from ._losses import tell
 from ._map_facts import mapped_of
+from ._match import nearest_vertices
 from ._numpy import np
 from ._progress import Progress, told
 from ._sphere_map import SphereMap
@@ -56,7 +57,10 @@ class Group:
         """Of each shape on the grid, as it was: RMS distance of its surface from its centroid, both by area,
         whoever else is in the group."""
         self.starts: List[str] = [shape["start"] for shape in found["shapes"]]
-        """What each way to the template began with."""
+        """What each way to the template began with: ``"ends"``, ``"turn"`` where there were none to pair, ``"rotation"``,
+        ``"ellipsoid"``, ``"its map"``; ``"template"``."""
+        self.mirrored: List[bool] = [shape["mirrored"] for shape in found["shapes"]]
+        """Whether a shape is its mirror image in the plane x = 0 here, with ``mirror``."""
         self.energies: List[float] = [shape["energy"] or math.nan for shape in found["shapes"]]
         """Of the last minimisation, where isometry has 2; NaN where there was none, as with ``hold``."""
         self.confidences: List[float] = [shape["confidence"] for shape in found["shapes"]]
@@ -69,8 +73,13 @@ class Group:
         shape: Floats = self.mean.vertices + deviations * self.modes[mode]
         return shape
 
-    def landmarks(self, vertices: Sequence[int], *, threads: int = 0) -> Landmarks:
-        """Where vertices of the template are on every shape: (k,) numbers of rows of ``template.vertices``."""
+    def landmarks(self, vertices: Union[Sequence[int], Any], *, threads: int = 0) -> Landmarks:
+        """Where vertices of the template are on every shape: (k,) numbers of rows of ``template.vertices``.
+
+        Or (k, 3) points of the template, for the vertices nearest to them; one that is far from any is told.
+        """
+        if isinstance(vertices, (list, tuple, np.ndarray)) and np.ndim(vertices) == 2:
+            vertices = nearest_vertices(np.asarray(vertices), self.template, "vertices")
         last = len(self.template.vertices) - 1
         chosen = [_arrays.whole(v, "vertices", 0, last) for v in _arrays.listed(vertices, "vertices", "vertices")]
         directions = self.template.points[chosen]
@@ -95,6 +104,7 @@ def group(
     *,
     start: str = "ends",
     alike: bool = False,
+    mirror: bool = False,
     hold: bool = False,
     rounds: int = 1,
     grid: str = "ico:5",
@@ -113,10 +123,15 @@ def group(
     template
         What all are brought to first; ``None``: the first of them.
     start
-        Where the way to it begins: ``"ends"`` paired, else as ``"rotation"``: maps turned until they look
-        alike; ``"ellipsoid"``: first-order ellipsoids turned alike; ``"maps"``: as they lie.
+        Where the way to it begins. ``"ends"``: ends of what sticks out are paired, as :func:`match` does it without
+        landmarks; where there are not three of them on both, the maps are turned as it does it then (``"turn"`` in
+        :attr:`Group.starts`); with ``hold`` it is ``"rotation"``: maps turned until they look alike.
+        ``"ellipsoid"``: first-order ellipsoids turned alike. ``"maps"``: as they lie.
     alike
         The shapes lie alike in space: ends and rotations are also judged by where places are.
+    mirror
+        Shapes may be mirror images, as right hands among left ones: each is taken as its own mirror image where that
+        fits the template clearly better; :attr:`Group.mirrored` tells which.
     hold
         Maps are only turned, or stay; else the distortion of shape → template is minimised.
     rounds
@@ -140,6 +155,7 @@ def group(
     options = {
         "start": _arrays.text(start, "start"),
         "alike": _arrays.flag(alike, "alike"),
+        "mirror": _arrays.flag(mirror, "mirror"),
         "hold": _arrays.flag(hold, "hold"),
         "rounds": _arrays.whole(rounds, "rounds", 0, 20),
         "grid": _arrays.text(grid, "grid"),

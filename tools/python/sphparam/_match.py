@@ -124,13 +124,32 @@ class SurfaceMap:
         return f"<sphparam.SurfaceMap: {self.source.name} → {self.target.name}, {len(self.residuals)} landmarks>"
 
 
-def _pairs(landmarks: Any) -> List[Tuple[int, int]]:
+_far = 0.02  # of the diagonal: a point may be of another mesh
+
+
+def nearest_vertices(points: Any, of: SphereMap, name: str) -> List[int]:
+    """Of each point (k, 3) the nearest vertex; a warning where one is far."""
+    found, farthest = [], 0.0
+    for point in _arrays.finite_points(points, name):
+        squares = ((of.vertices - point) ** 2).sum(axis=1)
+        found.append(int(np.argmin(squares)))
+        farthest = max(farthest, float(np.sqrt(squares[found[-1]])))
+    diagonal = float(np.linalg.norm(np.ptp(of.vertices, axis=0)))
+    if farthest >= _far * diagonal:
+        tell([f"{name}: a point is {farthest:.4g} away from the nearest vertex of {of.name}: is it in its coordinates?"])
+    return found
+
+
+def _pairs(landmarks: Any, source: SphereMap, target: SphereMap) -> List[Tuple[int, int]]:
     try:
         rows = np.asarray(landmarks)
     except ValueError:
         raise ValueError("landmarks: two vertices a row are needed, source and target, #×2") from None
     if rows.size == 0:
         return []
+    if rows.ndim == 3 and rows.shape[1:] == (2, 3):
+        firsts, seconds = (nearest_vertices(rows[:, i], of, "landmarks") for i, of in enumerate((source, target)))
+        return list(zip(firsts, seconds))
     if rows.dtype.kind not in "iu":
         raise TypeError(f"landmarks: pairs of vertices are needed, whole numbers, not {rows.dtype}")
     if rows.ndim != 2 or rows.shape[1] != 2:
@@ -184,7 +203,8 @@ def match(
     source, target
         Maps: the points of the source on the sphere move, those of the target stay.
     landmarks
-        (k, 2) vertices of the source and those of the target that they go to, exactly; none twice. ``None``:
+        (k, 2) vertices of the source and those of the target that they go to, exactly; none twice. Or (k, 2, 3)
+        points of both, for the vertices nearest to them; one that is far from any is told. ``None``:
         the ends of what sticks out of both are paired, and a start is made from there; ``()``: from the map
         that the source has.
     features
@@ -219,7 +239,7 @@ def match(
     options["alike"] = _arrays.flag(alike, "alike")
     if alike and landmarks is not None:
         raise ValueError("alike: landmarks say already what lies where on both; leave one of the two out")
-    pairs = [] if landmarks is None else _pairs(landmarks)
+    pairs = [] if landmarks is None else _pairs(landmarks, source, target)
     agreeing, weighs = None, _arrays.real(feature_weight, "feature_weight")
     if not 0 < weighs < float("inf"):
         raise ValueError(f"feature_weight: more than 0 is needed, not {weighs}")

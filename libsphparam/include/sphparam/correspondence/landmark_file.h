@@ -5,13 +5,14 @@
 #include <vector>
 
 #include "sphparam/correspondence/match.h"
-#include "sphparam/io/file_numbers.h"
+#include "sphparam/io/vertex_place.h"
 
 namespace sphparam {
 
 /// Landmarks of `match --landmarks FILE`, a pair a line: the vertex of the first mesh and that of
-/// the second, by their numbers in the meshes' files. `#` starts a comment; empty lines are
-/// skipped. The file can be read before the meshes, which may take minutes to map.
+/// the second, by their numbers in the meshes' files, or, in six numbers, a point of the first and
+/// one of the second, in their coordinates, for the vertices nearest to them. `#` starts a comment;
+/// empty lines are skipped. The file can be read before the meshes, which may take minutes to map.
 class LandmarkFile {
  public:
   /// Throws: ReadError with the line, also where there is no pair.
@@ -19,12 +20,17 @@ class LandmarkFile {
   /// The same from text in memory; `name` is for messages.
   LandmarkFile(std::string_view text, const std::string& name);
 
+  struct Found {
+    std::vector<LandmarkPair> pairs;
+    SnappedPoints snapped = {};
+  };
   /// Ensures: vertices of the meshes, none twice on either side. Throws: ReadError with the line.
-  std::vector<LandmarkPair> pairs(const FileNumbers& from, const FileNumbers& to) const;
+  Found pairs(const MeshFile& from, const MeshFile& to) const;
 
  private:
   struct Line {
-    long first, second, number;
+    VertexPlace first, second;
+    long number;
   };
   void parse(std::string_view text, const std::string& name);
 

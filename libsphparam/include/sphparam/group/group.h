@@ -16,8 +16,10 @@ namespace sphparam {
 
 /// Where the way of a shape to the template begins.
 enum class GroupStart {
-  Ends,      // ends of what sticks out, paired; where there are none, or maps are held, as Rotation
-  Rotation,  // spheres turned so that curvatures and area ratios agree most (map_alignment.h)
+  /// Ends of what sticks out, paired as `match_surfaces` does it; where there are not three on both
+  /// the turn that it finds then. Where maps are held, as Rotation.
+  Ends,
+  Rotation,   // spheres turned so that curvatures and area ratios agree most (map_alignment.h)
   Ellipsoid,  // spheres turned so that first-order ellipsoids lie alike, as SPHARM-PDM does
   Maps,       // as the maps lie: they are registered already
 };
@@ -28,6 +30,12 @@ std::string name_of(GroupStart start);
 struct GroupOptions {
   GroupStart start = GroupStart::Ends;
   bool alike = false;  // shapes lie alike in space: Ends and Rotation are also judged by places
+  /// Shapes may be mirror images, as right hands among left ones: each is also brought to the
+  /// template as its own mirror image (`mirror_image`), and that is taken where it fits clearly
+  /// better: by the energy beyond that of isometry, where one is minimised, else by the RMS
+  /// distance of a shape from the template that is moved and scaled onto it; less than 0.9 times as
+  /// much.
+  bool mirror = false;
   bool hold = false;  // maps are only turned; else the distortion of shape → template is minimised
   int rounds = 1;     // ≥ 0: how often all are then brought to their mean
   /// Of the mean, of triangles; nothing: the template's own vertices and triangles.
@@ -41,10 +49,10 @@ struct GroupOptions {
 
 /// One shape of a group.
 struct GroupMember {
-  MappedMesh mapped;        // with its map moved into correspondence
-  MappedMesh resampled;     // on the grid, where it was; with what its vertices have but normals
-  Points aligned;           // the resampled one's vertices, on the mean
-  double size = 0;          // of the resampled one, whoever else is in the group: `surface_size`
+  MappedMesh mapped;     // with its map moved into correspondence; its mirror image if `mirrored`
+  MappedMesh resampled;  // on the grid, where it was; with what its vertices have but normals
+  Points aligned;        // the resampled one's vertices, on the mean
+  double size = 0;       // of the resampled one, whoever else is in the group: `surface_size`
   ProcrustesMotion motion;  // that brought them there
   /// What its way began with: "template", "rotation", "ellipsoid", "ends", "turn" where there were
   /// none, "its map".
@@ -59,6 +67,7 @@ struct GroupMember {
   /// unit; RMS weighted by area.
   double resampling_rms = 0, resampling_max = 0;
   std::vector<std::string> warnings = {};  // for people
+  bool mirrored = false;                   // its mirror image was taken
 };
 
 /// What vertices of shapes have under one name, on the grid: floating numbers, not labels.

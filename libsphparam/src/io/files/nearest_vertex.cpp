@@ -1,4 +1,4 @@
-#include "records/nearest_vertex.h"
+#include "io/files/nearest_vertex.h"
 
 #include <algorithm>
 #include <limits>
