@@ -261,10 +261,36 @@ TEST_CASE("repair command: --weld takes what is near for what is there, and only
 }
 
 TEST_CASE("repair command: a name of no format, or one that is read, is refused before work") {
-  const Ended ended = sphparam_program({"repair", "-", "-o", "a.stl"}, "");
+  const Ended ended = sphparam_program({"repair", "-", "-o", "a.fbx"}, "");
   CHECK(ended.code == 2);
   CHECK_THAT(ended.err, Contains("written as .ply") || Contains("written as .obj"));
   CHECK(sphparam_program({"repair", "-", "-o", "a.ply", "--loops", "a.ply"}, "").code == 2);
+}
+
+TEST_CASE("repair command: an STL is written for printers, and what it does not hold is told") {
+  using Names = std::vector<std::string>;
+  const Folder folder;
+  TriangleMesh mesh = icosphere(1);
+  mesh.triangles.conservativeResize(mesh.face_count() - 1, 3);
+  const std::string stl = folder / "a.stl";
+  const Ended ended = sphparam_program({"repair", "-", "-o", stl}, obj_text(mesh));
+  CHECK(ended.code == 0);
+  CHECK_THAT(ended.err,
+             Contains("not carried: numbers of vertices: triangles there have corners of "
+                      "their own"));
+  CHECK(bytes_of(stl).size() == 84 + 50 * 80);
+  const MeshFile read = read_mesh(stl);
+  CHECK(read.format == "STL binary");
+  CHECK(read.mesh.vertex_count() == 42);
+  CHECK(sphparam_program({"map", stl, "-o", folder / "a.sph.ply"}).code == 0);
+  for (const Names& words :
+       {Names{"remesh", folder / "a.sph.ply", "--grid", "ico:2"}, Names{"wrap", stl}}) {
+    Names arguments = words;
+    arguments.insert(arguments.end(), {"-o", folder / "b.stl"});
+    CHECK(sphparam_program(arguments).code == 0);
+    CHECK(read_mesh(folder / "b.stl").format == "STL binary");
+    CHECK(sphparam_program({"info", folder / "b.stl"}).code == 0);
+  }
 }
 
 TEST_CASE("repair: an OBJ keeps the name of its material library, as it is called from there") {

@@ -452,7 +452,7 @@ TEST_CASE("spharm: what makes no sense is refused, and nothing is written") {
     CHECK_THAT(run(both).err,
                Contains("--scalar: radius is what --radius and --shadr expand under that name"));
   }
-  CHECK(run({"--reconstruct", folder / "out.stl"}).code == 2);
+  CHECK(run({"--reconstruct", folder / "out.dae"}).code == 2);
   CHECK(run({"--json", ball}).code == 2);
   CHECK(run({"--json", folder / "out", "--csv", folder / "out"}).code == 2);
   write_bytes(folder / "other.obj", obj_text(icosphere(1)));

@@ -299,8 +299,8 @@ TEST_CASE("mapped_mesh: formats without a place for the map hold the mesh alone"
           (rounds ? Points(positions.cast<float>().cast<double>()) : positions));
     CHECK_FALSE(read_sphere(back));
   }
-  CHECK_THROWS_AS(save_mapped(folder / "egg.stl", egg()), WriteError);
-  CHECK_FALSE(fs::exists(folder / "egg.stl"));
+  CHECK_THROWS_AS(save_mapped(folder / "egg.dae", egg()), WriteError);
+  CHECK_FALSE(fs::exists(folder / "egg.dae"));
 }
 
 TEST_CASE("mapped_mesh: a mesh without a map is mapped, and says how") {

@@ -337,7 +337,7 @@ bad_uses = {
     "save: a zero byte": (lambda m: m.save("a\0.ply"), ValueError, "path"),
     "save: half a letter": (lambda m: m.save("a\ud800.ply"), ValueError, r"path: no file has the name .*ud800"),
     "save: bytes": (lambda m: m.save(b"a.ply"), TypeError, "bytes"),
-    "save: no such format": (lambda m: m.save("a.stl"), sp.WriteError, "stl"),
+    "save: no such format": (lambda m: m.save("a.fbx"), sp.WriteError, "fbx"),
     "picture: no such colours": (lambda m: m.picture(colours="red"), ValueError, "checker"),
     "read: no such file": (lambda m: sp.read("no.ply"), FileNotFoundError, "no.ply"),
     "load: no such sphere": (lambda m: sp.load(__file__, "no.gii"), FileNotFoundError, "no.gii"),

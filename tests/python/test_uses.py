@@ -700,6 +700,15 @@ def test_faces_of_a_remesh_that_cross_are_counted_and_told(mapped):
         assert part.remesh("cube:32").in_space.concave_quads == 47
 
 
+def test_a_mesh_is_written_as_stl(mapped, tmp_path):
+    with pytest.warns(sp.LossWarning, match="numbers of vertices"):
+        mapped.save(tmp_path / "a.stl")
+    read = sp.read(tmp_path / "a.stl")
+    assert (read.vertices[read.faces] == V.astype(np.float32)[F]).all()
+    with pytest.raises(sp.WriteError, match="vertices have no numbers there"):
+        mapped.save_sphere(tmp_path / "b.stl")
+
+
 def test_levels_in_space_are_counted_and_told(mapped):
     assert [level.in_space.triangles for level in mapped.levels(2)] == [0, 0]
     with pytest.warns(sp.LossWarning):

@@ -5,6 +5,7 @@
 #include "arguments/energy_words.h"
 #include "console/exit_codes.h"
 #include "console/places.h"
+#include "sphparam/io/map_files.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/names.h"
@@ -167,11 +168,11 @@ void settle_sphere(MapArguments& arguments) {
 
 /// What there is for a format that cannot keep a map.
 std::string what_writes(const std::string& extension) {
-  if (is_written("sphere" + extension))
+  if (is_written_as_sphere("sphere" + extension))
     return "--write-sphere FILE writes the sphere alone as " + extension;
   if (extension == ".glb" || extension == ".gltf")
     return "`sphparam export` of the map writes " + extension;
-  return "the sphere alone is written as " + written_extensions();
+  return "the sphere alone is written as " + sphere_extensions();
 }
 
 void require_sensible(const MapArguments& arguments) {
@@ -186,8 +187,8 @@ void require_sensible(const MapArguments& arguments) {
   }
   require_sensible_parts(arguments);
   const bool is_named = !inner_extension_of(arguments.sphere).empty();
-  if (!arguments.sphere.empty() && !(is_named && is_written(arguments.sphere))) {
-    throw UsageMistake("--write-sphere: the name must end in " + written_extensions());
+  if (!arguments.sphere.empty() && !(is_named && is_written_as_sphere(arguments.sphere))) {
+    throw UsageMistake("--write-sphere: the name must end in " + sphere_extensions());
   }
   check_places({{"-o", arguments.output},
                 {"--write-sphere", arguments.sphere},

@@ -121,10 +121,10 @@ std::vector<std::string> add_surface(PendingFiles& files, const std::string& pat
   losses.insert(losses.begin(), "the surface alone, without the map: " +
                                     counted(fillers, "filler", "fillers") + " of holes left out");
   files.add(path, serialise_mesh(path, surface, options), [&](std::string_view written) {
-    const MeshFile read = read_mesh(written, path, own_file);
-    if (read.mesh.triangles != surface.mesh.triangles)
+    const ReadBack read = read_back(written, path, surface);
+    if (read.file.mesh.triangles != surface.mesh.triangles)
       throw WriteError(path, "as written, it has other triangles");
-    for (std::string& loss : losses_of_writing(surface, read)) losses.push_back(std::move(loss));
+    for (std::string& loss : losses_of_read_back(surface, read)) losses.push_back(std::move(loss));
   });
   return losses;
 }
@@ -187,10 +187,10 @@ std::vector<std::string> add_mapped(PendingFiles& files, const std::string& path
   const std::optional<SphereMap> map = has_place ? std::nullopt : read_sphere(file);
   options.faces = &faces;
   files.add(path, serialise_mesh(path, file, options), [&](std::string_view written) {
-    const MeshFile read = read_mesh(written, path, own_file);
-    const SphereMap rays = has_place ? read_sphere(read).value() : map.value();
-    require_certified(certify_read_back(read, rays, topology, threads), path + ", as written");
-    for (std::string& loss : losses_of_writing(file, read)) losses.push_back(std::move(loss));
+    const ReadBack read = read_back(written, path, file);
+    const SphereMap rays = has_place ? read_sphere(read.file).value() : map.value();
+    require_certified(certify_read_back(read.file, rays, topology, threads), path + ", as written");
+    for (std::string& loss : losses_of_read_back(file, read)) losses.push_back(std::move(loss));
   });
   return losses;
 }
@@ -209,10 +209,10 @@ std::vector<std::string> add_mesh(PendingFiles& files, const std::string& path, 
   files.add(path, serialise_mesh(path, file, options), [&](std::string_view written) {
     ReadOptions reading = own_file;
     reading.repeated_corners = true;
-    const MeshFile read = read_mesh(written, path, reading);
-    if (read.mesh.triangles != file.mesh.triangles)
+    const ReadBack read = read_back(written, path, file, reading);
+    if (read.file.mesh.triangles != file.mesh.triangles)
       throw WriteError(path, "as written, it has other triangles");
-    for (std::string& loss : losses_of_writing(file, read)) losses.push_back(std::move(loss));
+    for (std::string& loss : losses_of_read_back(file, read)) losses.push_back(std::move(loss));
   });
   return losses;
 }

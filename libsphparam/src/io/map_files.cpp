@@ -4,11 +4,13 @@
 
 #include "embedding/constructions/float32_safe.h"
 #include "io/files/read_back.h"
+#include "io/formats/mesh_formats.h"
 #include "number_text.h"
 #include "sphparam/errors.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/mesh_writer.h"
+#include "sphparam/io/paths.h"
 #include "sphparam/io/planetocentric.h"
 #include "sphparam/version.h"
 
@@ -123,8 +125,26 @@ std::vector<std::string> add_map(PendingFiles& files, const std::string& path,
   return losses;
 }
 
+bool is_written_as_sphere(const std::string& path) {
+  const std::string extension = is_stream(path) ? "" : inner_extension_of(path);
+  const MeshFormat* const format = format_of_extension(extension.empty() ? ".ply" : extension);
+  return format && format->write && !format->own_corners;
+}
+
+std::string sphere_extensions() {
+  std::vector<std::string> extensions;
+  for (const MeshFormat& format : mesh_formats())
+    if (format.write && !format.own_corners) extensions.emplace_back(format.extensions.front());
+  return joined({extensions.begin(), extensions.end() - 1}) + " or " + extensions.back();
+}
+
 double add_sphere(PendingFiles& files, const std::string& path, const FinishedMap& finished,
                   const SphereOptions& options) {
+  if (is_written(path) && !is_written_as_sphere(path))
+    throw WriteError(path,
+                     "vertices have no numbers there, which tie a sphere to its mesh; it is "
+                     "written as " +
+                         sphere_extensions());
   const HeldMap held = has_float_spheres(path)
                            ? as_floats(path, finished, options)
                            : HeldMap{finished.map, verdict(finished.certificate)};

@@ -383,7 +383,7 @@ def _as_typed_here(refusal: str) -> str:
 def write(path: Path, mesh: Any, faces: Any = None, *, values: Optional[Mapping[str, Any]] = None) -> None:
     """Writes a mesh in the format of the name, all of it or nothing; packed where that ends in ``.gz``.
 
-    PLY, OBJ, OFF, VTK, GIFTI, FreeSurfer and MZ3 are written. ``mesh``, ``faces`` and ``values`` are as
+    PLY, OBJ, OFF, STL, VTK, GIFTI, FreeSurfer and MZ3 are written. ``mesh``, ``faces`` and ``values`` are as
     :class:`Mesh` takes them. Raises :class:`WriteError`; warns, as :class:`LossWarning`, of what the
     format has no room for.
     """

@@ -56,12 +56,20 @@ struct FinishedMap {
   const Provenance& provenance;
 };
 
+/// Whether a bare sphere is written under this name: as a mesh, but for formats that do not keep
+/// the numbers of vertices, which tie it to its mesh: STL.
+bool is_written_as_sphere(const std::string& path);
+
+/// What names of spheres may end in: ".ply, .obj or .gii".
+std::string sphere_extensions();
+
 /// Adds the bare sphere: the triangles of the mesh on the rays of the map. In doubles, exactly, but
 /// for GIFTI, which is in floats, of the radius 100 that FreeSurfer, HCP and MSM give their
 /// spheres, rounded so that a certified map stays one (`round_to_float`). Where floats cannot hold
 /// it, it is made anew with small triangles taken for larger ones: returns the share of the mean
 /// area that these count as; else 0. What was written is proved as `add_map` does. Throws:
-/// WriteError; NotCertifiedError, also where floats cannot hold the map even so; Cancelled.
+/// WriteError, also for names that no sphere is written under; NotCertifiedError, also where floats
+/// cannot hold the map even so; Cancelled.
 double add_sphere(PendingFiles& files, const std::string& path, const FinishedMap& finished,
                   const SphereOptions& options = {});
 

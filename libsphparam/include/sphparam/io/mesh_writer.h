@@ -7,8 +7,8 @@
 
 namespace sphparam {
 
-// Meshes are written in the format that the name of the file asks for: .ply, .obj, .off, .vtk,
-// .vtp, .gii, .mz3, or a name of FreeSurfer (.white, .pial, .inflated, .sphere, .orig, .smoothwm,
+// Meshes are written in the format that the name asks for: .ply, .obj, .off, .stl, .vtk, .vtp,
+// .gii, .mz3, or a name of FreeSurfer (.white, .pial, .inflated, .sphere, .orig, .smoothwm,
 // .midthickness, .graymid, .reg, .surf). ".gz" after it asks for gzip. A name without an extension,
 // and "-", standard output, ask for PLY.
 //
@@ -16,8 +16,8 @@ namespace sphparam {
 // OBJ: positions, colours, texture coordinates, normals, materials, comments. OFF: what vertices
 // have of these, and colours of faces. VTK, VTP: all but what corners have. GIFTI: positions as
 // float32, comments as metadata. MZ3: positions as float32, colours as bytes, properties of
-// vertices without their names. FreeSurfer: positions as float32, comments of its own.
-// `losses_of_writing` tells.
+// vertices without their names. FreeSurfer: positions as float32, comments of its own. STL: binary,
+// float32 corners of triangles, vertices without numbers. `losses_of_writing` tells.
 
 struct WriteOptions {
   /// The polygons that the triangles are cut of, in their order; the formats that have polygons,
@@ -50,7 +50,7 @@ bool keeps_map(const std::string& path);
 /// The bytes of a mesh file. Where the format has no place for a map, what the comments say of it
 /// goes too, but on a sphere, which is the map. Requires: finite numbers; names of properties
 /// without blanks. Throws: WriteError for a name of no format that is written; for GIFTI, where
-/// libgiftiio fails; for GIFTI, FreeSurfer and MZ3, of coordinates beyond float32. Cost: near a
+/// libgiftiio fails; for GIFTI, FreeSurfer, MZ3, STL, of coordinates beyond float32. Cost: near a
 /// copy of the bytes for PLY, 0.2 µs a number of text.
 std::string serialise_mesh(const std::string& path, const MeshFile& file,
                            const WriteOptions& options = {});

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "sphparam/io/mesh_file.h"
 #include "sphparam/io/read_options.h"
@@ -23,6 +26,21 @@ inline constexpr ReadOptions own_map = [] {
   options.only_map = true;
   return options;
 }();
+
+/// What was written, as it is read; where its format gives each triangle corners of its own, with
+/// the numbers that vertices had.
+struct ReadBack {
+  MeshFile file;
+  Eigen::Index joined = 0;  // vertices that lie in the place of others there, which are one then
+  bool renumbered = false;
+};
+
+/// Throws: ReadError; WriteError where there are other triangles.
+ReadBack read_back(std::string_view bytes, const std::string& path, const MeshFile& written,
+                   const ReadOptions& options = own_file);
+
+/// What `losses_of_writing` tells, and what corners of each triangle's own do not tell.
+std::vector<std::string> losses_of_read_back(const MeshFile& written, const ReadBack& read);
 
 /// The certificate of a map on the faces that were read back. `written` saves building their
 /// topology anew where they are the faces that were to be written. Throws: as `Topology`.

@@ -25,6 +25,7 @@
 #include "io/formats/shapes/icq_reader.h"
 #include "io/formats/shapes/plate_reader.h"
 #include "io/formats/stl_reader.h"
+#include "io/formats/stl_writer.h"
 #include "io/formats/three_mf/three_mf_reader.h"
 #include "io/formats/vtk/legacy_vtk_reader.h"
 #include "io/formats/vtk/legacy_vtk_writer.h"
@@ -130,7 +131,8 @@ std::string write_gifti(const MeshFile& file, const WriteOptions& options,
 
 constexpr bool with_map = true, without_map = false;
 constexpr bool spheres_in_floats = true, spheres_in_doubles = false;
-constexpr bool with_data_beside = true;
+constexpr bool with_data_beside = true, without_data_beside = false;
+constexpr bool with_own_corners = true;
 constexpr auto magic = Evidence::MagicWord;
 
 constexpr MeshFormat formats[] = {
@@ -163,9 +165,11 @@ constexpr MeshFormat formats[] = {
      Evidence::Layout,
      looks_like_stl,
      read<read_stl>,
-     nullptr,
+     write<serialise_stl>,
      without_map,
-     spheres_in_doubles},
+     spheres_in_doubles,
+     without_data_beside,
+     with_own_corners},
     {"3MF",
      {".3mf"},
      magic,

@@ -38,6 +38,7 @@ struct MeshFormat {
   bool keeps_map;            // what is written has a place for the rays
   bool float_spheres;        // spheres are written with coordinates of 32 bits, of radius 100
   bool data_beside = false;  // numbers a vertex lie beside, in files of their own
+  bool own_corners = false;  // of each triangle: a reader numbers vertices as they come
 };
 
 /// All formats, in the order in which they are named to people.
