@@ -273,6 +273,33 @@ TEST_CASE("match: a turn for want of ends that is no isometry is told, and littl
   CHECK(told(match_surfaces(one, one, {.search = true})) == 0);
 }
 
+TEST_CASE("match: a start that was thrown away is neither told nor doubted") {
+  // The turn is off by little, and distorts: the map of its own is the identity.
+  const MappedMesh bent = mapped(coil(1));
+  const Match match = match_surfaces(bent, bent, {.search = true, .alike = true});
+  CHECK(match.made_by == "own map");
+  CHECK(match.energy == Approx(2).epsilon(1e-6));
+  CHECK(match.confidence > 0.5);
+  CHECK(match.warnings.empty());
+}
+
+TEST_CASE("match: surfaces that lie alike begin where they are nearest, if that distorts less") {
+  const MappedMesh one = mapped(coil(1));
+  TriangleMesh moved = coil(1);
+  moved.positions.col(0).array() += 0.001;
+  SphereMap map = parameterize(moved, {.energy = {.lambda = 20}}).map;
+  MeshFile file;
+  file.mesh = std::move(moved);
+  const MappedMesh other({.file = std::move(file), .map = std::move(map)});
+  const Match anyhow = match_surfaces(one, other, {.search = true});
+  const Match alike = match_surfaces(one, other, {.search = true, .alike = true, .threads = 1});
+  CHECK(anyhow.made_by == "turn");
+  CHECK(alike.made_by == "places");
+  CHECK(alike.energy < anyhow.energy);
+  const Match again = match_surfaces(one, other, {.search = true, .alike = true, .threads = 2});
+  CHECK(again.map.from().map().points == alike.map.from().map().points);
+}
+
 TEST_CASE("match: the same bits for one thread and two") {
   const MappedMesh a = mapped(bumpy(4)), b = mapped(turned_copy(bumpy(3)));
   std::vector<LandmarkPair> pairs;

@@ -1,6 +1,7 @@
 #include "sphparam/correspondence/likeness.h"
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "correspondence/coarse_to_fine.h"
@@ -19,8 +20,6 @@
 namespace sphparam {
 namespace {
 
-constexpr int anchor_counts[] = {16, 8, 4, 3};  // the first that a map is found with
-constexpr int all_starts = 3;
 constexpr double far_apart = 0.1;  // of the diagonal: half of a mesh there is another surface
 constexpr int most_rounds = 100;
 constexpr double least_progress = 1e-3;   // of a round, of what is left of the way
@@ -72,25 +71,10 @@ class Liker {
                          " of the diagonal away; has one been moved or scaled?");
   }
 
-  std::vector<Pin> anchors(int most) const {
-    std::vector<Pin> pins;
-    for (const Vertex v : spread_anchors(mesh_.mesh(), near_, most))
-      pins.push_back({v, near_.directions.row(v)});
-    return pins;
-  }
-
-  /// The map of least distortion that the first anchors lead to.
   SphereMap anchored() const {
-    for (const int count : anchor_counts) {
-      const ComposedOptions composed{.landmarks = anchors(count),
-                                     .release = true,
-                                     .threads = options_.threads,
-                                     .progress = options_.progress};
-      CoarseToFine way(mesh_.mesh(), mesh_.topology(), target_, composed);
-      if (!way.start(all_starts)) continue;
-      SphereMap map = way.finish();
-      if (map.points.rows() > 0) return map;
-    }
+    std::optional<SphereMap> map = anchored_map(
+        mesh_, target_, near_, {.threads = options_.threads, .progress = options_.progress});
+    if (map) return *std::move(map);
     throw UnlikeSurfaces("no map of " + mesh_.name() + " was found under which it lies as " +
                          other_.name() + " does");
   }

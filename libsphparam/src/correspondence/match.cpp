@@ -10,16 +10,19 @@
 #include "correspondence/landmark_search.h"
 #include "correspondence/landmark_sides.h"
 #include "correspondence/matchable.h"
+#include "correspondence/near_places.h"
 #include "correspondence/own_map.h"
 #include "correspondence/turned_starts.h"
 #include "embedding/energy/energy_domain.h"
 #include "number_text.h"
 #include "option_domain.h"
+#include "sphparam/measure/measurable.h"
 #include "sphparam/version.h"
 
 // Two starts. The map that `from` has, turned so that the landmarks fit, where they fit all but
 // exactly; else from coarse to fine, landmarks first. Where landmarks are searched for, both are
-// made, and the one of less energy goes on. Features have a way of their own.
+// made, of surfaces that lie alike in space also one from where they are nearest, and the one of
+// least energy goes on. Features have a way of their own.
 
 namespace sphparam {
 namespace {
@@ -148,11 +151,17 @@ class Matcher {
   Match run() {
     if (options_.features) return finished(by_features());
     const std::optional<SphereMap> own = fitting_map(from_, composed_.landmarks);
-    if (options_.search) return finished(less_of(*own, searched()));
+    if (options_.search) return finished(best_start(*own));
     return finished(own ? improved(*own) : coarse_to_fine());
   }
 
  private:
+  struct Start {
+    SphereMap map;
+    std::string made_by;
+    double energy = 0;
+  };
+
   /// From coarse to fine. Throws: UnreachableLandmarks; MirroredLandmarks.
   SphereMap coarse_to_fine() {
     CoarseToFine way(from_.mesh(), from_.topology(), target_, composed_);
@@ -172,9 +181,32 @@ class Matcher {
     return energy_of(own, plain) < energy_of(map, plain) ? own : std::move(map);
   }
 
-  SphereMap less_of(const SphereMap& own, SphereMap found) {
-    const DistortionEnergy& density = composed_.energy.energy;
-    return energy_of(found, density) < energy_of(own, density) ? std::move(found) : improved(own);
+  /// The start of least energy: from ends or a turn, from the map that `from` has, and, of surfaces
+  /// that lie alike, from where they are nearest.
+  SphereMap best_start(const SphereMap& own) {
+    const size_t told = warnings_.size();
+    SphereMap map = searched();
+    const Start found = judged(std::move(map), made_by_);
+    Start best = found;
+    if (std::optional<SphereMap> near = by_nearness()) {
+      Start start = judged(*std::move(near), "places");
+      if (start.energy < best.energy) best = std::move(start);
+    }
+    Start start = judged(own, "own map");
+    if (!(best.energy < start.energy)) best = std::move(start);
+    if (best.made_by != found.made_by && leads_elsewhere(best.map, found.map))
+      forget_search(best, found, told);
+    made_by_ = best.made_by;
+    tell_confidence(confidence_, other_);
+    if (found.made_by == "turn" && made_by_ != "places") tell_turn(best.energy, why_turned_);
+    return made_by_ == "own map" ? improved(own) : std::move(best.map);
+  }
+
+  std::optional<SphereMap> by_nearness() const {
+    if (!options_.alike) return std::nullopt;
+    const NearPlaces near = near_places(from_, to_, options_.threads);
+    if (!is_there(near, diagonal_of(to_.mesh().positions))) return std::nullopt;
+    return anchored_map(from_, target_, near, composed_);
   }
 
   /// Throws: UnreachableLandmarks; MirroredLandmarks.
@@ -213,7 +245,8 @@ class Matcher {
     composed_.release = true;
     try {
       SphereMap map = coarse_to_fine();
-      tell_confidence(confidence_of(suggestions_), "another pairing of the surfaces' ends fits");
+      confidence_ = confidence_of(suggestions_);
+      other_ = "another pairing of the surfaces' ends fits";
       return map;
     } catch (const UnreachableLandmarks&) {  // nobody gave them
       suggestions_.clear();
@@ -225,15 +258,33 @@ class Matcher {
   SphereMap by_turn(const std::string& why) {
     made_by_ = "turn";
     TurnedMatch found = match_by_turn(from_, to_, target_, composed_, options_.alike);
-    tell_confidence(found.confidence, why + ", and their maps fit after another turn");
-    tell_turn(energy_of(found.map, composed_.energy.energy), why);
+    confidence_ = found.confidence;
+    other_ = why + ", and their maps fit after another turn";
+    why_turned_ = why;
     return std::move(found.map);
   }
+
+  Start judged(SphereMap map, std::string made_by) const {
+    const double energy = energy_of(map, composed_.energy.energy);
+    return {std::move(map), std::move(made_by), energy};
+  }
+
+  /// Nothing that was said of what was found is so of a start that leads elsewhere.
+  void forget_search(const Start& taken, const Start& found, size_t warnings_before) {
+    const double isometric = isometric_energy();
+    warnings_.resize(warnings_before);
+    suggestions_.clear();
+    confidence_ = confidence_by_excess(taken.energy - isometric, found.energy - isometric);
+    other_ = found.made_by == "turn" ? "their maps fit after another turn"
+                                     : "a pairing of the surfaces' ends fits";
+  }
+
+  double isometric_energy() const { return differentiate(composed_.energy.energy, 1, 1).f; }
 
   /// A turn is compared with turns alone: that another map fits far better is not looked for, and
   /// is the likelier the less this one is an isometry.
   void tell_turn(double energy, const std::string& why) {
-    const double isometric = differentiate(composed_.energy.energy, 1, 1).f;
+    const double isometric = isometric_energy();
     const double excess = energy / isometric - 1;
     if (!(excess > telling_excess)) return;
     confidence_ = std::min(confidence_, telling_excess / excess);
@@ -283,7 +334,9 @@ class Matcher {
   ComposedOptions composed_;
   std::string made_by_ = "coarse to fine";
   std::vector<SuggestedLandmarks> suggestions_;
-  double confidence_ = 1;       // in the first of them
+  double confidence_ = 1;  // in the first of them
+  std::string other_;      // that fits about as well where there is little
+  std::string why_turned_;
   double agreement_ = 0;        // of features, …
   double place_agreement_ = 0;  // … and of places beside them
   std::vector<std::string> warnings_;

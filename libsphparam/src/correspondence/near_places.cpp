@@ -13,7 +13,10 @@ namespace {
 
 constexpr double same_way = 0.5;      // cosine of the angle between normals, at least
 constexpr double far_from_usual = 2;  // times the median: no anchor
+constexpr double far_apart = 0.1;     // of the diagonal
 constexpr std::int64_t grain = 64;
+constexpr int anchor_counts[] = {16, 8, 4, 3};  // the first that a map is found with
+constexpr int all_starts = 3;
 
 /// Not a number, or 0, where a face has no area: it faces no way.
 Vector3 normal_of(const TriangleMesh& mesh, Face f) {
@@ -57,6 +60,10 @@ NearPlaces near_places(const MappedMesh& mesh, const MappedMesh& other, int thre
   return near;
 }
 
+bool is_there(const NearPlaces& near, double diagonal) {
+  return median_of(near.away) <= far_apart * diagonal;
+}
+
 std::vector<Vertex> spread_anchors(const TriangleMesh& mesh, const NearPlaces& near, int most) {
   std::vector<double> trusted;
   for (size_t v = 0; v < near.away.size(); ++v)
@@ -85,6 +92,21 @@ std::vector<Vertex> spread_anchors(const TriangleMesh& mesh, const NearPlaces& n
     }
   }
   return anchors;
+}
+
+std::optional<SphereMap> anchored_map(const MappedMesh& mesh, const TargetSurface& target,
+                                      const NearPlaces& near, ComposedOptions options) {
+  options.release = true;
+  for (const int count : anchor_counts) {
+    options.landmarks.clear();
+    for (const Vertex v : spread_anchors(mesh.mesh(), near, count))
+      options.landmarks.push_back({v, near.directions.row(v)});
+    CoarseToFine way(mesh.mesh(), mesh.topology(), target, options);
+    if (!way.start(all_starts)) continue;
+    SphereMap map = way.finish();
+    if (map.points.rows() > 0) return map;
+  }
+  return std::nullopt;
 }
 
 }  // namespace sphparam

@@ -62,7 +62,16 @@ double start_at_best(CoarseToFine& way, const SphereMap& map,
   way.start_at(turned(map, starts.front().rotation));
   const std::optional<double> other = excess_elsewhere(starts);
   if (!other) return 1;
-  return *other > 0 ? std::clamp(1 - best / *other, 0.0, 1.0) : 0;
+  return confidence_by_excess(best, *other);
+}
+
+bool leads_elsewhere(const SphereMap& one, const SphereMap& other) {
+  const double rms = (one.points - other.points).norm() / std::sqrt(double(one.points.rows()));
+  return rms > elsewhere;
+}
+
+double confidence_by_excess(double excess, double elsewhere) {
+  return elsewhere > 0 ? std::clamp(1 - excess / elsewhere, 0.0, 1.0) : 0;
 }
 
 }  // namespace sphparam

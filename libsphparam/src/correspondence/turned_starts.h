@@ -18,4 +18,11 @@ double start_at_best(
     const ComposedEnergy& energy,
     const std::function<void(const Eigen::Matrix3d&)>& prepare = [](const Eigen::Matrix3d&) {});
 
+/// Whether two maps of one mesh are different ones, not the same but for little.
+bool leads_elsewhere(const SphereMap& one, const SphereMap& other);
+
+/// In a start of so much energy beyond isometry's: 0 where that which leads elsewhere has as
+/// little, towards 1 where it has far more.
+double confidence_by_excess(double excess, double elsewhere);
+
 }  // namespace sphparam

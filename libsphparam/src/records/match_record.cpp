@@ -71,10 +71,16 @@ Json carried_json(const std::optional<CarriedFidelity>& carried) {
       {"farthest", carried->farthest}, {"rms", carried->rms}, {"area_share", carried->area_share}};
 }
 
+std::string words_of_start(const std::string& made_by) {
+  if (made_by == "places") return "places in space";
+  return made_by == "own map" ? "its own map" : "a turn";
+}
+
 std::string words_of_search(const Match& match, bool searched) {
   if (!searched) return {};
   if (match.suggestions.empty())
-    return ", from a turn with confidence " + short_number(match.confidence);
+    return ", from " + words_of_start(match.made_by) + " with confidence " +
+           short_number(match.confidence);
   return ", from " + counted(std::ssize(match.suggestions.front().landmarks), "end", "ends") +
          " paired with confidence " + short_number(match.confidence);
 }

@@ -30,8 +30,8 @@ struct MatchOptions {
   /// held. Requires: none are given.
   bool search = false;
   /// `from` and `to` lie alike in space, as files of one rig or scanner do: a search is also judged
-  /// by how well places agree, in their coordinates; with features, the first turn is by that
-  /// alone.
+  /// by how well places agree, in their coordinates, and where they are nearest to one another is a
+  /// start too; with features, the first turn is by how places agree alone.
   bool alike = false;
   /// What is to agree besides. Without landmarks the first map is turned so that it does, to begin
   /// with. Requires: no search.
@@ -56,12 +56,15 @@ struct Match {
   SurfaceMap map;  // `from` with its map moved, `to` as it was
   double energy;   // of the composition as it was minimised, bounded where triangles collapse (see
                    // docs/mathematics.md), a unit of area; of symmetric Dirichlet isometry has 2
-  std::string made_by;  // "coarse to fine", "own map", "turn", "features": what it came from
+  std::string made_by;  // "coarse to fine", "own map", "turn", "places" (nearest in space),
+                        // "features": what it came from
   std::vector<double> residuals;  // radians of the landmarks from their partners; 0: exactly there
-  std::vector<SuggestedLandmarks> suggestions;  // what was found, the best first
+  /// What was found, the best first; none where another start leads elsewhere, with less energy.
+  std::vector<SuggestedLandmarks> suggestions;
   /// In the first of these, or in the turn that surfaces without ends or features begin with: 0
   /// where another is as good, 1 where there is none. In a turn that surfaces without ends begin
   /// with, at most 0.05 over how much more energy it has than an isometry, as a share of that's.
+  /// In another start that leads elsewhere than what was found: by how much more energy that has.
   double confidence = 1;
   double agreement = 0;        // of features: their correlation by the map, the mean over columns
   double place_agreement = 0;  // beside features, of surfaces that lie alike: that of places, over
