@@ -330,6 +330,10 @@ TEST_CASE(
   CHECK(contains(values_complaint(gifti("NIFTI_INTENT_NODE_INDEX", table), "a.gii"), "sparse"));
   CHECK(contains(values_complaint(gifti("NIFTI_INTENT_POINTSET", table), "a.gii"), "a surface"));
   CHECK(contains(values_complaint("nothing", "a.txt"), "no file of values"));
+  CHECK(contains(values_complaint("1\n2\n", "a.txt"),
+                 "values={\"label\": numpy.loadtxt('a.txt', dtype=int)}).save(\"labelled.ply\")"));
+  CHECK(contains(values_complaint("{}", "a.json"), "json.load(open('a.json'))[\"labels\"]}"));
+  CHECK_FALSE(contains(values_complaint("nothing", "a.bin"), "Python"));
 }
 
 TEST_CASE(

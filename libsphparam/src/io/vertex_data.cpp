@@ -48,13 +48,26 @@ std::optional<ValuesFormat> named_format(const std::string& path) {
   return std::nullopt;
 }
 
+/// What makes numbers of a text columns of the mesh: such files say nothing of their numbers.
+std::string advice_on_text(const std::string& path) {
+  const std::string extension = inner_extension_of(path);
+  const bool is_json = extension == ".json";
+  static constexpr std::array<std::string_view, 4> texts = {".txt", ".csv", ".tsv", ".dat"};
+  if (!is_json && std::ranges::find(texts, extension) == texts.end()) return "";
+  return std::string(". In Python numbers of a text become a column of the mesh: m = ") +
+         "sphparam.read(\"mesh.ply\"); sphparam.Mesh(m.vertices, m.faces, values={\"label\": " +
+         (is_json ? "json.load(open(" : "numpy.loadtxt(") + sphparam::quoted(path) +
+         (is_json ? "))[\"labels\"]" : ", dtype=int)") + "}).save(\"labelled.ply\")";
+}
+
 ValuesFormat format_of(std::string_view bytes, const std::string& name) {
   if (looks_like_gifti(bytes)) return ValuesFormat::Gifti;
   if (looks_like_curv(bytes)) return ValuesFormat::Curv;
   if (looks_like_label_file(bytes)) return ValuesFormat::LabelFile;
   if (looks_like_mgh(bytes)) return ValuesFormat::Mgh;
   if (const std::optional<ValuesFormat> named = named_format(name)) return *named;
-  throw ReadError(name, "is no file of values that is known; " + written_data_names() + " are");
+  throw ReadError(name, "is no file of values that is known; " + written_data_names() + " are" +
+                            advice_on_text(name));
 }
 
 VertexData read_as(ValuesFormat format, std::string_view bytes, const std::string& name,

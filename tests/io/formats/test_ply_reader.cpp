@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "io/formats/ply/ply_writer.h"
 #include "io/reading.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/mesh_writer.h"
@@ -122,6 +123,21 @@ TEST_CASE("ply_reader: a text of floats that says more than these hold keeps its
     CHECK(file.mesh.position(1) == Vector3(static_cast<double>(std::strtof(x.c_str(), nullptr)), -1,
                                            static_cast<double>(0.1f)));
   }
+}
+
+TEST_CASE("ply_writer: colours from 0 to 1 are bytes, as other programs read them") {
+  const MeshFile obj =
+      read("v 0 0 0 1 0.501961 0\nv 1 0 0 0 0 0.2\nv 0 1 0 0 0 1\nf 1 2 3\n", "a.obj");
+  const MeshFile ply = read(serialise_ply(obj));
+  for (const char* name : {"red", "green", "blue"})
+    CHECK(ply.find_vertex_property(name)->type == ScalarType::Uint8);
+  CHECK(values_of(ply.find_vertex_property("red")) == std::vector<double>{255, 0, 0});
+  CHECK(values_of(ply.find_vertex_property("green")) == std::vector<double>{128, 0, 0});
+  CHECK(values_of(ply.find_vertex_property("blue")) == std::vector<double>{0, 51, 255});
+  // Light beyond white, and numbers that are no colours, stay as they are.
+  const MeshFile bright = read("v 0 0 0 1 1.5 0\nv 1 0 0 0 0 0\nv 0 1 0 0 0 1\nf 1 2 3\n", "a.obj");
+  CHECK(values_of(read(serialise_ply(bright)).find_vertex_property("green")) ==
+        std::vector<double>{1.5, 0, 0});
 }
 
 TEST_CASE("ply_reader: both byte orders hold the same mesh") {

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
+#include <type_traits>
 
 #include "io/formats/lossless_type.h"
 #include "io/formats/ply/ply_reader.h"
@@ -23,6 +25,7 @@ struct PlyColumn {
   Eigen::Index width = 1;   // numbers a record
   Eigen::Index stride = 1;  // from record to record in `values`
   bool is_list = false;     // with a count of one byte
+  double scale = 1;         // else what values are multiplied by, and rounded
 
   std::size_t bytes() const {
     return (is_list ? 1 : 0) + static_cast<std::size_t>(width) * size_in_bytes(type);
@@ -43,8 +46,14 @@ void fill(char* at, std::size_t record_bytes, Eigen::Index records, const PlyCol
     for (Eigen::Index i = 0; i < records; ++i, at += record_bytes) {
       char* to = at;
       if (column.is_list) *to++ = static_cast<char>(column.width);
-      for (Eigen::Index k = 0; k < column.width; ++k, to += sizeof(T))
-        store_little_endian(to, static_cast<T>(values[i * column.stride + k]));
+      for (Eigen::Index k = 0; k < column.width; ++k, to += sizeof(T)) {
+        const Source value = values[i * column.stride + k];
+        if constexpr (std::is_floating_point_v<Source>)
+          store_little_endian(
+              to, static_cast<T>(column.scale == 1 ? value : std::nearbyint(value * column.scale)));
+        else
+          store_little_endian(to, static_cast<T>(value));
+      }
     }
   });
 }
@@ -56,6 +65,33 @@ PlyColumn scalar_column(const Property& property) {
           property.values.data()};
 }
 
+bool is_fraction(const Property& property) {
+  return is_floating(property.type) && std::ranges::all_of(property.values, [](double value) {
+           return value >= 0 && value <= 1;
+         });
+}
+
+/// Colours from 0 to 1, as an OBJ has them. Other programs take floats of a PLY for 0 to 255.
+bool has_fractions_for_colours(const MeshFile& file) {
+  for (const char* channel : {"red", "green", "blue"}) {
+    const Property* const colour = file.find_vertex_property(channel);
+    if (!colour || !is_fraction(*colour)) return false;
+  }
+  const Property* const alpha = file.find_vertex_property("alpha");
+  return !alpha || is_fraction(*alpha);
+}
+
+PlyColumn byte_column(const Property& colour) {
+  constexpr double brightest = 255;
+  PlyColumn column{"property uchar " + colour.name, ScalarType::Uint8, colour.values.data()};
+  column.scale = brightest;
+  return column;
+}
+
+bool is_colour(const std::string& name) {
+  return name == "red" || name == "green" || name == "blue" || name == "alpha";
+}
+
 std::vector<PlyColumn> vertex_columns(const MeshFile& file) {
   const Points& positions = file.mesh.positions;
   const ScalarType type =
@@ -64,8 +100,10 @@ std::vector<PlyColumn> vertex_columns(const MeshFile& file) {
   for (int axis = 0; axis < 3; ++axis)
     columns.push_back({"property " + std::string(ply_name(type)) + " " + "xyz"[axis], type,
                        positions.size() > 0 ? positions.data() + axis : nullptr, 1, 3});
+  const bool fractions = has_fractions_for_colours(file);
   for (const Property& property : file.vertex_properties)
-    columns.push_back(scalar_column(property));
+    columns.push_back(fractions && is_colour(property.name) ? byte_column(property)
+                                                            : scalar_column(property));
   return columns;
 }
 
