@@ -210,6 +210,21 @@ TEST_CASE("bake images: far from the origin integers keep the digits that float3
           Approx(y).margin(2 * step));
   }
 
+  for (const std::string map : {"radius", "height:radial"}) {
+    const BakeReport report = baked(far, map, "length.exr");
+    CHECK(report.warnings.back() ==
+          map.substr(0, map.find(':')) +
+              ": so far from the origin, numbers of 32 bits are 0.5 apart, 16.7 % of the mesh's "
+              "length: depth u16 (.png, .tif) keeps more, or move the mesh nearer");
+  }
+  const auto [least, greatest] = baked(far, "radius", "radius.tif").images[0].range.value();
+  const Image radii = read_image(folder / "radius.tif");
+  for (size_t i = 0; i < radii.pixels.size(); ++i) {
+    const double y = 3 * static_cast<double>(near.pixels[3 * i + 1]) - 1.5;
+    CHECK(least - far + (greatest - least) * static_cast<double>(radii.pixels[i]) ==
+          Approx(y).margin(2 * step));
+  }
+
   const BakeReport floats = baked(far, "position", "far.exr");
   CHECK(floats.warnings ==
         std::vector<std::string>{"position: so far from the origin, numbers of 32 bits are 0.5 "

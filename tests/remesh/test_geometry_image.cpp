@@ -113,6 +113,25 @@ TEST_CASE("geometry images: in float, what comes back is what went in, rounded")
   }
 }
 
+TEST_CASE(
+    "geometry images: floats far from 0 for their extent are less an offset, which comes back") {
+  Made made("octa:17");
+  for (size_t i = 0; i < made.values.size(); ++i) made.values[i] += i % 3 == 1 ? 5.2e6 : 0;
+  const GeometryImage image = made.image(ImageDepth::Float);
+  CHECK(image.texts.back().first == "sphparam:offset");
+  const std::vector<double> back = through_file(image, ImageDepth::Float).values;
+  REQUIRE(back.size() == made.values.size());
+  // Half a step of float32 below 8, the extent, and what the sum in double loses.
+  for (size_t i = 0; i < back.size(); ++i)
+    CHECK(std::abs(back[i] - made.values[i]) <= 0x1p-22 + 0x1p-30);
+
+  // What floats hold as it is stays as it is.
+  for (double& value : made.values) value = static_cast<double>(static_cast<float>(value));
+  const GeometryImage held = made.image(ImageDepth::Float);
+  CHECK(held.texts.back().first == "sphparam:depth");
+  CHECK(through_file(held, ImageDepth::Float).values == made.values);
+}
+
 TEST_CASE("geometry images: half and 16 bits are within half a quantum") {
   for (const double scale : {1e-6, 1.0, 3000.0}) {
     const Made made("octa:17", scale);
