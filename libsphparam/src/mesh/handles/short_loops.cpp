@@ -171,19 +171,19 @@ EdgeLoop ShortLoops::closed_by(const Scratch& scratch, const Closing& closing) c
   return loop;
 }
 
+void ShortLoops::keep_shortest(const Closing& found, std::vector<Closing>& of_each_label) {
+  for (Closing& known : of_each_label) {
+    if (known.label != found.label) continue;
+    if (found.length < known.length) known = found;
+    return;
+  }
+  if (of_each_label.size() < most_classes) of_each_label.push_back(found);
+}
+
 std::vector<EdgeLoop> ShortLoops::through(Vertex vertex, double longest) const {
   const Lease lease(*this);
   Scratch& scratch = *lease;
   std::vector<Closing> closings;
-  const auto close = [&](const Closing& found) {
-    if (found.label == 0 || found.length > longest) return;
-    for (Closing& known : closings) {
-      if (known.label != found.label) continue;
-      if (found.length < known.length) known = found;
-      return;
-    }
-    if (closings.size() < most_classes) closings.push_back(found);
-  };
   scratch.begin(vertex, longest / 2);
   while (!scratch.queue.empty()) {
     const auto [distance, u] = scratch.queue.pop();
@@ -198,7 +198,8 @@ std::vector<EdgeLoop> ShortLoops::through(Vertex vertex, double longest) const {
       const bool known = scratch.knows(arc.target);
       if (known && there.settled) {
         if (here.from == arc.target) continue;
-        close({u, arc.target, length + there.distance, label ^ there.label});
+        const Closing found{u, arc.target, length + there.distance, label ^ there.label};
+        if (found.label != 0 && found.length <= longest) keep_shortest(found, closings);
       } else if (length <= longest / 2 && (!known || length < there.distance)) {
         scratch.reach(arc.target, length, label, u);
       }

@@ -64,6 +64,7 @@ class ShortLoops {
     std::uint64_t label;  // of the whole loop
   };
   void list_arcs(const Topology& topology, const std::vector<Vector3>& places);
+  static void keep_shortest(const Closing& found, std::vector<Closing>& of_each_label);
   EdgeLoop closed_by(const Scratch& scratch, const Closing& closing) const;
   std::vector<Base> candidates(double reach) const;
   std::vector<Base> bases(double reach) const;
