@@ -136,6 +136,37 @@ std::vector<int> sums_of(const SphericalChart& chart, const Points& normals) {
   return of_wedges ? first_alike(chart, normals) : chart.wedge_vertices;
 }
 
+/// The directions about each wedge, longer where corners are wider. Wedges of a pole's fan have
+/// sums of their own, others those of all that are alike.
+class DirectionSums {
+ public:
+  DirectionSums(const SphericalChart& chart, const Points& normals,
+                const std::vector<CornerDirections>& directions)
+      : chart_(chart), sum_of_(sums_of(chart, normals)) {
+    for (Face f = 0; f < static_cast<Face>(directions.size()); ++f) {
+      const CornerDirections& corners = directions[static_cast<size_t>(f)];
+      for (int k = 0; k < 3; ++k)
+        row_of(chart.wedges(f, k)) += corners.angles[static_cast<size_t>(k)] * corners.along;
+    }
+  }
+
+  Vector3 of(int wedge) const {
+    return is_fan(wedge) ? fans_.row(wedge) : shared_.row(sum_of_[static_cast<size_t>(wedge)]);
+  }
+
+ private:
+  bool is_fan(int wedge) const {
+    return chart_.wedge_kinds[static_cast<size_t>(wedge)] == WedgeKind::PoleFan;
+  }
+  Points::RowXpr row_of(int wedge) {
+    return is_fan(wedge) ? fans_.row(wedge) : shared_.row(sum_of_[static_cast<size_t>(wedge)]);
+  }
+
+  const SphericalChart& chart_;
+  const std::vector<int> sum_of_;
+  Points shared_ = Points::Zero(chart_.wedge_count(), 3), fans_ = shared_;
+};
+
 void require_rows(bool right) {
   if (!right) throw std::invalid_argument("tangent_frame: not one row a refined vertex or wedge");
 }
@@ -160,7 +191,6 @@ ShadingFrame tangent_frame(const SphericalChart& chart, const Points& positions,
   require_rows(positions.rows() == vertices_of(chart));
   require_rows(normals.rows() == vertices_of(chart) || normals.rows() == wedges);
   const bool of_wedges = normals.rows() == wedges;
-  const std::vector<int> sum_of = sums_of(chart, normals);
   std::vector<CornerDirections> directions(static_cast<size_t>(faces));
   parallel_for(faces, chunk_size, threads, [&](std::int64_t first, std::int64_t last) {
     find_directions(chart, positions, static_cast<Face>(first),
@@ -168,25 +198,13 @@ ShadingFrame tangent_frame(const SphericalChart& chart, const Points& positions,
                         .subspan(static_cast<size_t>(first), static_cast<size_t>(last - first)));
   });
 
-  const auto is_fan = [&](int w) {
-    return chart.wedge_kinds[static_cast<size_t>(w)] == WedgeKind::PoleFan;
-  };
-  Points sums = Points::Zero(wedges, 3), fans = Points::Zero(wedges, 3);
-  for (Face f = 0; f < static_cast<Face>(faces); ++f) {
-    const CornerDirections& corners = directions[static_cast<size_t>(f)];
-    for (int k = 0; k < 3; ++k) {
-      const int w = chart.wedges(f, k);
-      const Vector3 direction = corners.angles[static_cast<size_t>(k)] * corners.along;
-      is_fan(w) ? fans.row(w) += direction : sums.row(sum_of[static_cast<size_t>(w)]) += direction;
-    }
-  }
-
+  const DirectionSums sums(chart, normals, directions);
   ShadingFrame frame{Points(wedges, 3), Tangents(wedges, 4)};
   parallel_for(wedges, chunk_size, threads, [&](std::int64_t first, std::int64_t last) {
     for (auto w = static_cast<int>(first); w < static_cast<int>(last); ++w) {
       const Vertex v = chart.wedge_vertices[static_cast<size_t>(w)];
       const Vector3 normal = normals.row(of_wedges ? w : v);
-      const Vector3 sum = is_fan(w) ? fans.row(w) : sums.row(sum_of[static_cast<size_t>(w)]);
+      const Vector3 sum = sums.of(w);
       frame.normals.row(w) = normal;
       frame.tangents.row(w) << tangent_of(sum, normal).transpose(), 1;
     }
