@@ -126,7 +126,7 @@ TEST_CASE("simplify: fillers stay fillers, and their rim is made of vertices of 
   for (const Vertex v : left) CHECK(rim.contains(numbers[static_cast<size_t>(v)]));
 }
 
-TEST_CASE("simplify: what cannot be coarser is left out; numbers must fall") {
+TEST_CASE("simplify: what cannot be coarser is left out, and numbers must fall") {
   const TriangleMesh four = tests::tetrahedron();
   const MappedMesh least({.file = {.mesh = four}, .map = {four.positions}});
   CHECK(simplified_meshes(least, Longs{4}).empty());
