@@ -120,6 +120,47 @@ TEST_CASE("measure: --signed says which side, in the report, the table and the f
   CHECK(sphparam_program({"measure", open, balls.small, "--signed"}).code == 0);
 }
 
+TEST_CASE("measure: --signed by the fillers of holes that were kept, distances to the rest") {
+  const Balls balls;
+  TriangleMesh open = icosphere(3);
+  open.positions *= 1.5;
+  open.triangles.conservativeResize(open.face_count() - 8, 3);
+  const std::string holed = balls.folder / "holed.obj", kept = balls.folder / "kept.ply";
+  write_bytes(holed, obj_text(open));
+  REQUIRE(sphparam_program({"repair", holed, "-o", kept, "--repair", "--keep-holes=20%"}).code ==
+          0);
+  const auto measured = [&](const std::string& other, const std::string& option) {
+    return sphparam_program(
+        {"measure", balls.small, other, "--samples", "5000", "--json", "-", option});
+  };
+  const Ended ended = measured(kept, "--signed");
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  const Json side = Json::parse(ended.out)["first_to_second"];
+  CHECK(side["signed"]["max"] < 0.0);  // all of it is inside, also before the hole
+  CHECK(side["signed"]["mean"].get<double>() == -side["mean"].get<double>());
+  const Json plain = Json::parse(measured(holed, "--upright").out)["first_to_second"];
+  CHECK(side["RMS"] == plain["RMS"]);
+  CHECK(measured(holed, "--signed").code == 4);
+}
+
+TEST_CASE("measure: a mesh and its copy with a global shift are asked about") {
+  const Balls balls;
+  TriangleMesh far = icosphere(3);
+  far.positions.rowwise() += Eigen::RowVector3d(500000, 5200000, 0);
+  const std::string shifted = balls.folder / "shifted.obj";
+  write_bytes(shifted, obj_text(far));
+  const std::string asked =
+      "small.obj and shifted.obj are 5.224e+06 from one another, farther than either is large";
+  const Ended ended = sphparam_program({"measure", balls.small, shifted, "--samples", "100"});
+  CHECK(ended.code == 0);
+  CHECK_THAT(ended.err, Contains(asked) && Contains("--align rigid first puts B onto A"));
+  CHECK_THAT(balls.measure({}).err, !Contains("farther than either"));
+  const Ended aligned =
+      sphparam_program({"measure", balls.small, shifted, "--samples", "100", "--align", "rigid"});
+  CHECK_THAT(aligned.err, !Contains("farther than either"));
+}
+
 TEST_CASE("measure: colours of --signed are about 0 where all is outside, and over a --range") {
   const Balls balls;
   const std::string file = balls.folder / "d.ply";

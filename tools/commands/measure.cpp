@@ -103,9 +103,12 @@ std::string way_on(const MeasureArguments& arguments, const MeshFile& second, Si
   throw UnmeasurableMesh(name + ": " + error.what() + way_on(arguments, second, error.side()));
 }
 
+/// `enclosing`: the second with its fillers, where it has some: they tell what is inside.
 SurfaceDistance measure(const MeasureArguments& arguments, const MeshFile& first,
-                        const MeshFile& second, Session& session) try {
+                        const MeshFile& second, const std::optional<TriangleMesh>& enclosing,
+                        Session& session) try {
   DistanceOptions options = arguments.options;
+  if (enclosing && unclosed_edges(enclosing->triangles) == 0) options.enclosing = &*enclosing;
   options.threads = session.threads();
   options.progress = session.progress();
   return measure_distance(first.mesh, second.mesh, options);
@@ -176,12 +179,32 @@ void tell_units(const MeasureArguments& arguments, const MeshFile& first, const 
   }
 }
 
+/// One body in two systems of coordinates? Nobody asks how far what is elsewhere is.
+void tell_far_apart(const MeasureArguments& arguments, const MeshFile& first,
+                    const MeshFile& second, Session& session) {
+  const Box one = surface_box(first.mesh), other = surface_box(second.mesh);
+  const Vector3 apart =
+      (one.lower - other.upper).cwiseMax(other.lower - one.upper).cwiseMax(Vector3::Zero());
+  const double larger =
+      std::max((one.upper - one.lower).norm(), (other.upper - other.lower).norm());
+  if (!(larger > 0 && apart.norm() > larger)) return;
+  session.warn({display_name(arguments.first) + " and " + display_name(arguments.second) + " are " +
+                short_number(apart.norm(), 4) +
+                " from one another, farther than either is large: "
+                "has one been moved, as a global shift of coordinates does? --align rigid first "
+                "puts B onto A"});
+}
+
 Eigen::Matrix3d stance(const MeshFile& file) { return upright_rotation(upright_axes(file)); }
 
-/// Turned so that it stands in the other's coordinates as it says it does in its own.
+/// How it is turned so that it stands in the other's coordinates as it says it does in its own.
+Eigen::Matrix3d turn_as(const MeshFile& other, const MeshFile& file) {
+  return stance(file).transpose() * stance(other);
+}
+
 TriangleMesh turned_as(const MeshFile& other, const MeshFile& file) {
   TriangleMesh mesh = file.mesh;
-  mesh.positions *= stance(file).transpose() * stance(other);
+  mesh.positions *= turn_as(other, file);
   return mesh;
 }
 
@@ -361,16 +384,21 @@ int run_measure(MeasureArguments& arguments) {
   settle_sampled(arguments.sampled, arguments.options);
   require_sensible(arguments);
   const MeshFile first = read_surface(arguments.first, arguments.repair, session);
-  MeshFile second =
-      placed(arguments, first, read_surface(arguments.second, arguments.repair, session), session);
+  std::optional<TriangleMesh> with_fillers;
+  MeshFile second = read_surface(arguments.second, arguments.repair, session, &with_fillers);
+  if (with_fillers && arguments.upright) with_fillers->positions *= turn_as(first, second);
+  second = placed(arguments, first, std::move(second), session);
   session.hold_signals();
   if (arguments.align != Align::Similarity) tell_units(arguments, first, second, session);
+  if (arguments.align == Align::None) tell_far_apart(arguments, first, second, session);
   const std::optional<Alignment> alignment = align(arguments, first, second, session);
+  if (with_fillers && alignment)
+    with_fillers->positions = moved(std::move(with_fillers->positions), alignment->motion);
   if (arguments.within)
     arguments.options.within = arguments.within->of(
         Vector3(surface_box(first.mesh).upper - surface_box(first.mesh).lower).norm());
   const std::optional<Growth> growth = growth_asked_for(arguments, first, second);
-  const SurfaceDistance distance = measure(arguments, first, second, session);
+  const SurfaceDistance distance = measure(arguments, first, second, with_fillers, session);
   if (!arguments.upright && !alignment) tell_turned(arguments, first, second, distance, session);
   DistanceRecord record = {.first = arguments.first,
                            .second = arguments.second,

@@ -15,7 +15,8 @@ namespace sphparam::cli {
 
 namespace {
 
-MeshFile told_surface(MeshFile file, const std::string& path, Session& session) {
+MeshFile told_surface(MeshFile file, const std::string& path, Session& session,
+                      std::optional<TriangleMesh>* with_fillers = nullptr) {
   for (const std::string& coarse : coarse_coordinates_among(file.notes))
     session.console.warning(display_name(path) + ": " + coarse);
   for (const std::string& note : file.notes) session.console.detail(note);
@@ -24,6 +25,7 @@ MeshFile told_surface(MeshFile file, const std::string& path, Session& session) 
   const auto count = std::count(fillers.begin(), fillers.end(), 1);
   session.console.say("  " + display_name(path) + ": " + counted(count, "filler", "fillers") +
                       " left out");
+  if (with_fillers) *with_fillers = file.mesh;
   return without_fillers(file);
 }
 
@@ -44,11 +46,13 @@ MeshFile read_surface(const std::string& path, Session& session, const ReadOptio
   return told_surface(read_mesh(path, options), path, session);
 }
 
-MeshFile read_surface(const std::string& path, const RepairArguments& repair, Session& session) {
-  if (!wanted_repairs(repair)) return read_surface(path, session);
+MeshFile read_surface(const std::string& path, const RepairArguments& repair, Session& session,
+                      std::optional<TriangleMesh>* with_fillers) {
+  if (!wanted_repairs(repair))
+    return told_surface(read_mesh(path, input_limits()), path, session, with_fillers);
   MeshSource source = read_mended_as_far(path, repair, session);
   tell_left(source, session);
-  return told_surface(std::move(source.file), path, session);
+  return told_surface(std::move(source.file), path, session, with_fillers);
 }
 
 }  // namespace sphparam::cli

@@ -395,7 +395,7 @@ SurfaceDistance measure_in_range(const TriangleMesh& first, const TriangleMesh& 
   report(options.progress, "trees", 0.5);
   const Target to_second{second, RayScene(second)};
   std::optional<Enclosure> inside;
-  if (options.deviations) inside.emplace(second);
+  if (options.deviations) inside.emplace(options.enclosing ? *options.enclosing : second);
   const Enclosure* const enclosed = inside ? &*inside : nullptr;
   SurfaceDistance result;
   result.forth = measure_one_side(Side::First, first, to_second, enclosed, options);
@@ -422,11 +422,16 @@ SurfaceDistance measure_distance(const TriangleMesh& first, const TriangleMesh& 
   }
   if (options.within && !(*options.within >= 0))
     throw std::invalid_argument("measure_distance: nothing is within less than 0");
-  if (options.deviations) require_closed(second);
+  if (options.deviations) require_closed(options.enclosing ? *options.enclosing : second);
   const double scale = common_scale(first, second);
   if (scale == 1) return measure_in_range(first, second, options);
   DistanceOptions scaled = options;
   if (scaled.within) *scaled.within *= scale;
+  TriangleMesh enclosing;
+  if (options.enclosing) {
+    enclosing = {scale * options.enclosing->positions, options.enclosing->triangles};
+    scaled.enclosing = &enclosing;
+  }
   SurfaceDistance result = measure_in_range({scale * first.positions, first.triangles},
                                             {scale * second.positions, second.triangles}, scaled);
   scale_lengths(result, 1 / scale);

@@ -20,6 +20,9 @@ struct DistanceOptions {
   bool extremes = true;   // false: mean and RMS alone, in half the time
   /// Also on which side of the second surface the points of the first are, which must be closed.
   bool deviations = false;
+  /// What encloses the inside, where that is not the second surface itself, which may be open then:
+  /// as a rule that with its fillers. Closed; borrowed.
+  const TriangleMesh* enclosing = nullptr;
   /// Also which share of the samples is no farther than this from the other surface.
   std::optional<double> within = {};
   int threads = 0;  // 0: all cores
@@ -87,7 +90,8 @@ class UnmeasurableSurface : public std::invalid_argument {
 /// them; the samples are stratified by area. Requires: some sample wanted, samples ≥ 1. Throws:
 /// std::invalid_argument if not, or for less than 0 as `within`; UnmeasurableSurface where there is
 /// no triangle, one names a vertex that is not there, a coordinate is not finite, what is to be
-/// sampled has no area or length, or the second is to be closed and is not; Cancelled. Ensures: the
+/// sampled has no area or length, or the second, or what encloses for it, is to be closed and is
+/// not; Cancelled. Ensures: the
 /// same bits for any number of threads. Cost: about 1 µs a sample and vertex, some times that among
 /// thin triangles, with `extremes` up to 3 µs a sample for the bound, and about 10 µs for the side
 /// of each; memory linear in the meshes, and up to 200 MB for the bound. A point that is equally
