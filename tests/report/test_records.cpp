@@ -316,7 +316,8 @@ TEST_CASE("distance_record: both ways, and what is more than a limit") {
                               .limits = {{"rms", 1, 0.5}, {"max", 0.1, 0.5}, {"nan", 1, NAN}}};
   const Json json = Json::parse(to_json(record));
   CHECK(keys_of(json) ==
-        "sphparam,command,first,second,sampled,upright,first_to_second,second_to_first,two_sided,"
+        "sphparam,command,first,second,sampled,upright,alignment,first_to_second,second_to_first,"
+        "two_sided,"
         "limits,renamed,outputs,seconds");
   CHECK(json["sampled"]["on"] == Json({"faces", "vertices"}));
   CHECK(json["first_to_second"]["RMS"] == distance.forth.rms);
