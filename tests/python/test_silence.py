@@ -156,6 +156,16 @@ def test_what_is_reduced_is_a_number(painted):
         assert type(array) is np.ndarray
 
 
+@pytest.mark.parametrize(("field", "share"), [("position", "25 %"), ("radius", "25 %"), ("slope", "")])
+def test_a_field_far_from_the_origin_is_told_to_be_rounded(field, share):
+    V, F = potato(2)
+    m = sp.map(2 * V / np.ptp(V, 0).max() + (0, 5e6, 0), F)
+    _, lines = told(lambda: m.bake(field, size=32))
+    wanted = f"{field}: so far from the origin, numbers of 32 bits are 0.5 apart, {share} of the mesh's length: "
+    wanted += 'bake_files(…, depth="u16") keeps more, or move the mesh nearer'
+    assert lines == ([wanted] if share else [])
+
+
 def test_a_notebook_shows_a_picture(painted):
     image = painted.bake("basecolor", size=32)
     assert image._repr_png_()[:8] == b"\x89PNG\r\n\x1a\n" and image[0]._repr_png_() is None

@@ -153,7 +153,9 @@ std::shared_ptr<const CalmWalls> walls_of(const BakeScene& scene, const BakeSett
   return CalmWalls::find(scene, settings.calm_beyond);
 }
 
-BakedField told(const SurfaceField& field) { return {field.name, field.about, field.channels}; }
+BakedField told(const SurfaceField& field, const BakeScene& scene) {
+  return {field.name, field.about, field.channels, rounding_line(field, scene)};
+}
 
 }  // namespace
 
@@ -212,7 +214,7 @@ std::vector<BakedField> bake_values(const MappedMesh& source, const std::vector<
   for (const std::string& name : names) {
     fields.push_back(make_covered_field(name, scene));
     CalmWalls::calm(scene.walls, fields.back());
-    baked.push_back(told(fields.back()));
+    baked.push_back(told(fields.back(), scene));
   }
   if (fields.empty()) return baked;
   bake(scene, fields, engine_options(settings, "bake"),

@@ -172,8 +172,10 @@ double float_step(const SurfaceField& field, double extent) {
   return std::ldexp(1.0, std::ilogb(most) - (std::numeric_limits<float>::digits - 1));
 }
 
-/// What floats lose of a field that is far from 0; empty where that is next to nothing.
+}  // namespace
+
 std::string rounding_line(const SurfaceField& field, const BakeScene& scene) {
+  if (!field.is_far()) return "";
   constexpr double nothing = 0x1p-17;  // of the extent: what is lost by is_far is more
   const bool of_lengths = !is_scalar(field);
   const double extent = of_lengths ? longest_side(scene.source.mesh()) : field.range->second;
@@ -185,14 +187,12 @@ std::string rounding_line(const SurfaceField& field, const BakeScene& scene) {
          ": depth u16 (.png, .tif) keeps more" + (of_lengths ? ", or move the mesh nearer" : "");
 }
 
-}  // namespace
-
 std::vector<std::string> warnings_of(const std::vector<PlannedImage>& images,
                                      const BakeScene& scene, const BakeSettings& settings) {
   std::vector<std::string> warnings;
   for (const PlannedImage& image : images) {
     const SurfaceField& field = image.field;
-    if (field.is_far() && !is_integer(image.file.sample_type))
+    if (!is_integer(image.file.sample_type))
       if (std::string line = rounding_line(field, scene); !line.empty())
         warnings.push_back(std::move(line));
     if (settings.fields.heat && field.kind == FieldKind::Data)

@@ -30,6 +30,9 @@ PlannedImage plan_image(const BakeRequest& request, BakeScene& scene, const Bake
 void find_ranges(std::vector<PlannedImage>& images, const BakeScene& scene,
                  const BakeSettings& settings);
 
+/// What floats lose of a field that is far from 0; empty where that is next to nothing.
+std::string rounding_line(const SurfaceField& field, const BakeScene& scene);
+
 /// What of the images is not as one might think: numbers that are rounded far from the origin, and
 /// those that heat has no colours for.
 std::vector<std::string> warnings_of(const std::vector<PlannedImage>& images,

@@ -122,7 +122,8 @@ py::list bake_to_arrays(const Mapped& mapped, const std::vector<std::string>& fi
   for (BakedArray& array : baked) {
     const int channels = array.field.channels;
     list.append(py::make_tuple(array.field.name, array.field.about,
-                               owning(std::move(array.values), {width / 2, width, channels})));
+                               owning(std::move(array.values), {width / 2, width, channels}),
+                               array.field.rounding));
   }
   return list;
 }

@@ -184,7 +184,9 @@ class MapImages(MapFacts):
         options = _baking(locals())
         self._require_scalar(field, surface)
         with told(progress) as report:
-            [(name, about, table)] = _core.bake_to_arrays(self._mapped, [field], options, report)
+            [(name, about, table, rounding)] = _core.bake_to_arrays(self._mapped, [field], options, report)
+        if rounding:
+            tell([rounding.replace("depth u16 (.png, .tif)", 'bake_files(…, depth="u16")')])
         frame = (target or self)._fingerprint() if name == "normal-tangent" else None
         poles = refine_poles if options["interpolation"] == "uv" else None
         return BakedImage._of(table, name, about, Baked(options["convention"], poles, normal_y_down, frame))

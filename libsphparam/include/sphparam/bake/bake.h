@@ -133,9 +133,10 @@ std::string scale_path(const std::string& image);
 
 /// A field whose values are wanted, not an image of it.
 struct BakedField {
-  std::string name;   // "curvature:mean" of "curvature"
-  std::string about;  // unit, space, convention
-  int channels = 1;   // 1, 3 or 4; where there are fillers one more, 0 on them, 4 at most
+  std::string name;           // "curvature:mean" of "curvature"
+  std::string about;          // unit, space, convention
+  int channels = 1;           // 1, 3 or 4; where there are fillers one more, 0 on them, 4 at most
+  std::string rounding = {};  // what float32 loses of values that are far from 0; empty: nothing
 };
 
 /// Takes rows of the field with this index, from the top, one call after the other for a field; for
