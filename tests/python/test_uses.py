@@ -485,6 +485,13 @@ def test_the_distance_of_every_vertex_and_its_side(mapped):
         sp.measure(mapped, (V, F[1:]), samples=100, signed=True)
 
 
+def test_fillers_of_holes_that_were_kept_tell_what_is_inside():
+    opened = sp.map(1.1 * V, F[1:], repair=dict(keep_holes=True))
+    found = sp.measure((V, F), opened, samples=2000, signed=True).forth
+    assert found.deviation.max < 0 and found.deviation.mean == -found.mean
+    assert found.rms == sp.measure((V, F), (1.1 * V, F[1:]), samples=2000).forth.rms
+
+
 def test_a_surface_is_put_onto_another_before_it_is_measured():
     axes = V * [1.5, 1.1, 0.8]
     lump = axes * (1 + 0.4 * np.exp(-8 * ((V / np.linalg.norm(V, axis=1)[:, None] - [0.8, 0.5, 0.33]) ** 2).sum(axis=1)))[:, None]

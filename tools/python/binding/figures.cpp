@@ -11,6 +11,7 @@
 #include "binding.h"
 #include "call.h"
 #include "embedding/frame/nearest_rotation.h"
+#include "measure/enclosure.h"
 #include "sphparam/io/coef_file.h"
 #include "sphparam/io/fillers.h"
 #include "sphparam/io/harmonic_expansion.h"
@@ -60,13 +61,16 @@ py::dict measure(const Source& first, const Source& second, std::int64_t samples
   const Mesh one = surface(first.mesh.file), other = surface(second.mesh.file);
   if (upright) turn_as(first.mesh.file, second.mesh.file, *other);
   std::optional<Alignment> alignment;
-  const SurfaceDistance found = call(progress, [=, &alignment](const Progress& report) {
+  const SurfaceDistance found = call(progress, [=, &alignment, &second](const Progress& report) {
     if (align != "none") {
       alignment = align_surfaces(
           *one, *other,
           {.scale = align == "similarity", .seed = seed, .threads = threads, .progress = report});
       other->positions = moved(std::move(other->positions), alignment->motion);
     }
+    const Triangles& whole = second.mesh.file.mesh.triangles;
+    const bool encloses = whole.rows() > other->face_count() && unclosed_edges(whole) == 0;
+    const TriangleMesh enclosing{encloses ? other->positions : Points(), whole};
     return measure_distance(*one, *other,
                             {.samples = samples,
                              .seed = seed,
@@ -75,6 +79,7 @@ py::dict measure(const Source& first, const Source& second, std::int64_t samples
                              .vertices = over.contains("vertices"),
                              .extremes = extremes,
                              .deviations = deviations,
+                             .enclosing = encloses ? &enclosing : nullptr,
                              .within = within,
                              .threads = threads,
                              .progress = report});

@@ -54,7 +54,7 @@ def measure(
         False: RMS and mean alone, in half the time.
     signed
         Also on which side of the second surface the points of the first are, less than 0 inside:
-        ``forth.deviation``. The second must be closed (else ValueError), the first need not.
+        ``forth.deviation``. The second must be closed (else ValueError), by its fillers where holes were kept; the first need not.
     within
         Also which share of the samples is no farther than this, ``forth.within`` and ``back.within``.
     upright
