@@ -8,6 +8,7 @@
 #include "mapped.h"
 #include "program.h"
 #include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/mesh_writer.h"
 #include "support/glb_json.h"
 #include "support/test_meshes.h"
 
@@ -34,6 +35,29 @@ TEST_CASE("remesh: every grid is written certified, and reported") {
     CHECK(sphparam_program({"verify", out}).code == 0);
     CHECK(Json::parse(bytes_of(json))["grid"]["name"] == grid);
   }
+}
+
+TEST_CASE("remesh: floats that may be labels are told to be averaged, and labels are not") {
+  const Folder folder;
+  const TriangleMesh ball = icosphere(2);
+  const auto told = [&](ScalarType type, double step) {
+    Property classes{"scalar_Class", type, {}};
+    for (Vertex v = 0; v < ball.vertex_count(); ++v)
+      classes.values.push_back(ball.positions(v, 2) > 0 ? step : 2);
+    MeshFile file;
+    file.mesh = ball;
+    file.set_vertex_property(std::move(classes));
+    write_mesh(folder / "ball.ply", file);
+    const Ended ended = sphparam_program(
+        {"remesh", folder / "ball.ply", "--grid", "octa:9", "-o", folder / "new.ply"});
+    REQUIRE(ended.code == 0);
+    return ended.err;
+  };
+  const std::string hint = "scalar_Class: whole numbers in floats are averaged, ";
+  CHECK_THAT(told(ScalarType::Float32, 5),
+             Contains(hint) && Contains("`property int scalar_Class` in a PLY"));
+  CHECK_THAT(told(ScalarType::Float32, 5.5), !Contains(hint));
+  CHECK_THAT(told(ScalarType::Int32, 5), !Contains(hint));
 }
 
 TEST_CASE("remesh --within: the coarsest grid that measure finds near enough") {

@@ -156,7 +156,8 @@ std::string figures(const MeshSource& source, const std::optional<ClosedHoles>& 
          filler_line(closed) +
          line("area", short_number(closed ? closed->area : mesh.area, figure_digits)) +
          (mesh.boundary_loops > 0 ? ""  // an open mesh encloses none
-                                  : line("volume", short_number(mesh.volume, figure_digits))) +
+                                  : line("volume", short_number(mesh.volume, figure_digits) +
+                                                       (closed ? ", fillers included" : ""))) +
          line("attributes", attributes(file)) + line("welding", welding(source));
 }
 
