@@ -162,8 +162,17 @@ TEST_CASE(
       CHECK(back.unlit == unlit);
     }
     // Who names an image that light falls on wants light.
-    by_image.look.occlusion = folder / "a.png";
-    CHECK_FALSE(make_look(mapped_egg(3), by_image).materials[0].unlit);
+    const auto is_unlit = [&](const ExportOptions& options) {
+      return make_look(mapped_egg(3), options).materials[0].unlit;
+    };
+    for (std::string LookOptions::*image :
+         {&LookOptions::occlusion, &LookOptions::orm, &LookOptions::emissive}) {
+      ExportOptions lit = by_image;
+      lit.look.*image = folder / "a.png";
+      CHECK_FALSE(is_unlit(lit));
+    }
+    by_image.look.tangents = true;
+    CHECK_FALSE(is_unlit(by_image));
   }
 }
 

@@ -1,9 +1,14 @@
 #include <catch2/catch.hpp>
+#include <cstring>
 #include <nlohmann/json.hpp>
+#include <tuple>
+#include <vector>
 
 #include "charted.h"
 #include "gltf/images/material_images.h"
 #include "gltf/images/variant_images.h"
+#include "gltf/packing.h"
+#include "gltf/shape.h"
 #include "gltf/written_check.h"
 #include "io/uri.h"
 #include "sphparam/gltf/gltf_writer.h"
@@ -95,6 +100,18 @@ TEST_CASE("gltf_writer: every view begins at a multiple of four, the file ends a
   for (const json& view : gltf["bufferViews"]) CHECK(view["byteOffset"].get<int>() % 4 == 0);
 }
 
+TEST_CASE("gltf_writer: only what lies in the unit square can be whole numbers") {
+  FloatRows uv(2, 2);
+  CHECK(fits_integers({}));
+  for (const auto& [lowest, highest, fits] : {std::tuple(0.0F, 1.0F, true),
+                                              {0.25F, 0.5F, true},
+                                              {-0.125F, 1.0F, false},
+                                              {0.0F, 1.125F, false}}) {
+    uv << 0.25F, highest, lowest, 0.5F;
+    CHECK(fits_integers(uv) == fits);
+  }
+}
+
 TEST_CASE("gltf_writer: textures wrap in u and are clamped in v") {
   Asset asset = Charted().asset();
   asset.images = {white_asset_image()};
@@ -183,6 +200,21 @@ TEST_CASE("gltf_writer: the animation shows one target after the other and ends 
   const int times = gltf["accessors"][sampler["input"].get<int>()]["count"],
             weights = gltf["accessors"][sampler["output"].get<int>()]["count"];
   CHECK(weights == 2 * times);
+  const GltfFiles files = write_gltf(asset, {.container = GltfContainer::Separate, .stem = "egg"});
+  const int view = gltf["accessors"][sampler["output"].get<int>()]["bufferView"];
+  std::vector<float> numbers(static_cast<std::size_t>(weights));
+  std::memcpy(numbers.data(),
+              files[1].second.data() + gltf["bufferViews"][view]["byteOffset"].get<int>(),
+              numbers.size() * sizeof(float));
+  CHECK(numbers == std::vector<float>{0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 0, 1, 0, 0});
+}
+
+TEST_CASE("gltf_writer: the flat shape is two wide and one high, north up, about the origin") {
+  const SphericalChart chart = Charted({}, 1).chart.chart;
+  const Shape flat = flat_shape(chart);
+  CHECK(flat.positions.col(0) == (2 * chart.uv.col(0).array() - 1).matrix());
+  CHECK(flat.positions.col(1) == (0.5 - chart.uv.col(1).array()).matrix());
+  CHECK(flat.positions.col(2).isZero(0));
 }
 
 TEST_CASE("gltf_writer: compression is declared required, its buffer of before is not there") {
@@ -247,6 +279,7 @@ TEST_CASE("in_convention: drawn in a convention or moved into it, a test image i
 TEST_CASE("gltf_writer: copyright and extras of the source stand beside our own") {
   Asset asset = long_asset(3);
   CHECK_FALSE(json_of(glb_bytes(asset))["asset"].contains("copyright"));
+  CHECK_FALSE(json_of(glb_bytes(asset))["asset"].contains("extras"));
   asset.copyright = "(c) Me";
   asset.source_extras = R"({"license":"CC-BY","sphparam":"theirs"})";
   asset.extras = {{"source", "a.glb"}};

@@ -232,6 +232,21 @@ TEST_CASE("look: images that light falls on are told where no light is wanted") 
   CHECK(make_look(ball(1, "ball.ply"), options).warnings.empty());
 }
 
+TEST_CASE("look: an image that was baked says itself how its alpha is seen") {
+  const Folder folder;
+  ExportOptions options;
+  options.look.texture = folder / "a.png";
+  for (const auto& [alpha, mode] : {std::pair("blend", AlphaMode::Blend),
+                                    {"mask 0.25", AlphaMode::Mask},
+                                    {"", AlphaMode::Opaque}}) {
+    write_image(folder / "a.png", Image(4, 2, 3),
+                {.metadata = {{"sphparam:map", "basecolor"}, {"sphparam:alpha", alpha}}});
+    const Material material = make_look(ball(1, "ball.ply"), options).materials[0];
+    CHECK(material.alpha_mode == mode);
+    if (mode == AlphaMode::Mask) CHECK(material.alpha_cutoff == 0.25);
+  }
+}
+
 TEST_CASE("look: what is the same all over takes no image, or one texel, which is told") {
   const Folder folder;
   const auto look_of = [&](const std::vector<float>& orm, const std::vector<float>& occlusion,
@@ -280,6 +295,15 @@ TEST_CASE("look: what is the same all over takes no image, or one texel, which i
         Words{"the image orm is one colour: roughness 1 and metallic 0, without an image",
               "the image occlusion is one colour: it darkens nothing, and is left out",
               "the image emissive is one colour: no light, and left out"});
+
+  for (const int width : {1, 2}) {  // one texel stays as it is
+    Image red(width, 1, 3);
+    for (int column = 0; column < width; ++column) *red.pixel(column, 0) = 1;
+    write_image(folder / "red.png", red);
+    ExportOptions options;
+    options.look.emissive = folder / "red.png";
+    CHECK(make_look(ball(1, "ball.ply"), options).remarks.size() == (width == 1 ? 0 : 1));
+  }
 
   const Look lamp = look_of({}, {0.5F, 0.5F, 0.5F}, {1, 0, 0});
   REQUIRE(lamp.images.size() == 3);
