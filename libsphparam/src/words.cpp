@@ -69,10 +69,12 @@ std::string distortion_line(const DistortionSummary& distortion) {
               : " (without " + counted(distortion.flat_faces, "triangle") + " of no area)");
 }
 
-std::string radial_line(const RadialRecord& radial) {
+std::string radial_line(const RadialRecord& radial, double length) {
   const Vector3& c = radial.centre;
-  const std::string centre =
-      "(" + short_number(c.x()) + ", " + short_number(c.y()) + ", " + short_number(c.z()) + ")";
+  const bool is_far = length > 0 && c.cwiseAbs().maxCoeff() > length;
+  const std::string centre = is_far ? "(" + place_text(c, length) + ")"
+                                    : "(" + short_number(c.x()) + ", " + short_number(c.y()) +
+                                          ", " + short_number(c.z()) + ")";
   if (radial.folds == 0 && radial.moved == 0) {
     return "planetocentric: the surface is star-shaped about " + centre;
   }

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <queue>
 
+#include "curvilinear/middle_poles.h"
 #include "sphparam/curvilinear/poles.h"
 #include "support/test_meshes.h"
 
@@ -214,4 +215,52 @@ TEST_CASE("poles along a direction: never one vertex, and no edge where the mesh
   const TriangleMesh solid = icosphere(0);
   const Poles few = poles_along(solid, Topology(solid), Vector3(1, 2, 3));
   CHECK(few.north != few.south);
+}
+
+TEST_CASE("middle poles: of a body that leans, the middle of its own flat top and bottom") {
+  TriangleMesh can = icosphere(3);  // cut off flat above and below
+  can.positions.col(2) = can.positions.col(2).cwiseMax(-0.8).cwiseMin(0.8);
+  const Topology topology(can);
+  const Poles upright = poles_along(can, topology, Vector3::UnitZ());
+  const auto middle = [&](const TriangleMesh& mesh, Poles poles) {
+    return middle_poles(mesh, topology, Vector3::UnitZ(), {}, poles);
+  };
+  const Poles same = middle(can, upright);
+  CHECK(same.north == upright.north);
+  CHECK(same.south == upright.south);
+  TriangleMesh leaning = can;
+  leaning.positions.col(0) += can.positions.col(2);
+  leaning.positions *= 1e200;
+  const Poles beside = poles_along(leaning, topology, Vector3::UnitZ());
+  CHECK(beside.north != upright.north);
+  CHECK(beside.south != upright.south);
+  const Poles found = middle(leaning, beside);
+  CHECK(found.north == upright.north);
+  CHECK(found.south == upright.south);
+  // No face is as high as the tips of a ball but for some that have next to no area there.
+  const TriangleMesh ball = icosphere(3);
+  const Poles tips = poles_along(ball, topology, Vector3::UnitZ());
+  CHECK(middle(ball, tips).north == tips.north);
+}
+
+TEST_CASE("middle poles: on the rim of a hole that is kept, the middle of what closes it") {
+  const TriangleMesh mesh = icosphere(2);
+  const Topology topology(mesh);
+  const Poles tips = poles_along(mesh, topology, Vector3::UnitZ());
+  FillerMarks fillers(static_cast<size_t>(mesh.face_count()), 0);
+  topology.for_each_outgoing(
+      tips.north, [&](Halfedge h) { fillers[static_cast<size_t>(Topology::face(h))] = 1; });
+  const Vertex rim = topology.target(topology.outgoing(tips.north));
+  const auto middle = [&](Poles poles) {
+    return middle_poles(mesh, topology, Vector3::UnitZ(), fillers, poles);
+  };
+  CHECK(middle({rim, tips.south}).north == tips.north);
+  CHECK(middle({rim, tips.south}).south == tips.south);
+  CHECK(middle({tips.south, rim}).south == tips.north);
+  CHECK_FALSE(poles_share_filler(topology, fillers, {rim, tips.south}));
+  CHECK_FALSE(poles_share_filler(topology, {}, {rim, rim}));
+  const Vertex across = topology.apex(topology.outgoing(tips.north));
+  CHECK(poles_share_filler(topology, fillers, {rim, across}));
+  CHECK(middle({rim, across}).north == rim);
+  CHECK(middle({rim, across}).south == across);
 }

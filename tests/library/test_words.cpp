@@ -130,3 +130,11 @@ TEST_CASE("names: repairs by their words, and what asks for more than the usual 
         "--repair --handles cut --max-handle 51.4%");
   CHECK(options_line(RepairOptions{.longest_handle_length = 12.5}) == "--repair --max-handle 12.5");
 }
+
+TEST_CASE("words: the centre of a radial map has the digits that its body needs") {
+  const RadialRecord far{.centre = {500123.25, 5200456.5, 312.125}};
+  CHECK(radial_line(far, 3) ==
+        "planetocentric: the surface is star-shaped about (500123.25, 5200456.5, 312.125)");
+  const RadialRecord near{.centre = {0.123456, 1, 2}};
+  CHECK(radial_line(near, 3) == "planetocentric: the surface is star-shaped about (0.123, 1, 2)");
+}

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pipeline/balanced_embedding.h"
+#include "sphere/face_rays.h"
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/parameterize.h"
 #include "support/all_triangulations.h"
@@ -509,4 +510,31 @@ TEST_CASE("parameterize: a map that stayed above its least energy says so, other
   CHECK(gap_warnings(normal) == 1);
   CHECK_FALSE(parameterize(icosphere(3), {.quality = Quality::Draft}).energy_gap);
   CHECK_FALSE(parameterize(icosphere(3), {.balance = Balance::EqualArea}).energy_gap);
+}
+
+TEST_CASE(
+    "parameterize: where holes are kept, poles cost what the surface has more of, without "
+    "fillers") {
+  const TriangleMesh mesh = icosphere(3);
+  const Topology topology(mesh);
+  FillerMarks fillers(static_cast<size_t>(mesh.face_count()), 0);
+  for (Face f = 0; f < mesh.face_count(); ++f)
+    fillers[static_cast<size_t>(f)] = mesh.position(mesh.triangles(f, 0)).z() > 0.5;
+  const RestTriangles source = measure_source(mesh);
+  const auto energy = [&](const Parameterization& result) {
+    double sum = 0;
+    for (Face f = 0; f < mesh.face_count(); ++f) {
+      const auto i = static_cast<size_t>(f);
+      const auto [d, s] = distortion(source[i], face_rays(topology, result.map, f));
+      if (!fillers[i]) sum += source[i].area * energy_density({}, d, s);
+    }
+    return sum;
+  };
+  const Parameterization free = parameterize(mesh, {.automatic_poles = false, .fillers = fillers});
+  const Parameterization chosen = parameterize(mesh, {.fillers = fillers});
+  REQUIRE(chosen.poles);
+  CHECK(energy(chosen) / energy(free) - 1 == Approx(chosen.pole_cost).margin(1e-9));
+  const Parameterization held = parameterize(mesh, {.poles = Poles{0, 40}, .fillers = fillers});
+  REQUIRE(held.poles);
+  CHECK(energy(held) / energy(free) - 1 == Approx(held.pole_cost).margin(1e-9));
 }

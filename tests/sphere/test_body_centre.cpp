@@ -78,3 +78,10 @@ TEST_CASE("body centre: a centroid that is outside itself is not recommended") {
         "encloses "
         "does");
 }
+
+TEST_CASE("body centre: far from the origin it has the digits that the place needs") {
+  TriangleMesh mesh = corner_of_cube();
+  mesh.positions.rowwise() += Vector3(500000.25, 5200000.5, 0).transpose();
+  CHECK_THAT(line_of_outside(mesh, Vector3::Zero()),
+             Catch::Contains("--centre centroid is 500001.25,5200001.5,1, that of what"));
+}

@@ -10,6 +10,7 @@
 #include "commands/map_outputs.h"
 #include "commands/map_parts.h"
 #include "commands/sources.h"
+#include "curvilinear/middle_poles.h"
 #include "io/inspected_source.h"
 #include "reports/map_wording.h"
 #include "reports/told_losses.h"
@@ -99,7 +100,7 @@ bool is_to_stand(const MapArguments& arguments) {
 }
 
 /// Poles and meridian as the mesh stands, which its file says then.
-void settle_upright(const MapArguments& arguments, MapOutcome& outcome) {
+void settle_upright(const MapArguments& arguments, MapOutcome& outcome, Session& session) {
   if (!is_to_stand(arguments)) return;
   MeshFile& file = outcome.source.file;
   const UprightAxes axes = upright_axes(file, arguments.up);
@@ -107,6 +108,12 @@ void settle_upright(const MapArguments& arguments, MapOutcome& outcome) {
   const ParameterizeOptions upright =
       with_upright_frame(outcome.options, file.mesh, outcome.topology(), axes);
   if (arguments.upright_poles) outcome.options.poles = upright.poles;
+  if (arguments.upright_poles &&
+      poles_share_filler(outcome.topology(), upright.fillers, *upright.poles))
+    session.warn(
+        {"top and bottom both lie on the rim of one hole that is kept: the surface is "
+         "drawn out between them; --poles V1,V2 names others, --poles auto takes those "
+         "that images suffer least from"});
   if (arguments.front_meridian) outcome.options.meridian = upright.meridian;
 }
 
@@ -171,7 +178,7 @@ MapOutcome compute(MeshSource source, const MapArguments& arguments, Session& se
   options.progress = session.progress();
   options.fillers = fillers_of(outcome.source.file);
   settle_vertices(arguments.pins, outcome.source, options, session.console);
-  settle_upright(arguments, outcome);
+  settle_upright(arguments, outcome, session);
   settle_directions(arguments, outcome.source, options, session);
   MethodRun made = run(arguments, outcome);
   outcome.result = std::move(made.result);
@@ -180,7 +187,7 @@ MapOutcome compute(MeshSource source, const MapArguments& arguments, Session& se
   outcome.frame = check_frame(outcome.result, options);
   if (outcome.has_map() && is_to_stand(arguments))
     outcome.upright = upright_words(outcome.result.map, mesh, outcome.topology(),
-                                    upright_axes(outcome.source.file));
+                                    upright_axes(outcome.source.file), options.fillers);
   if (outcome.has_map()) {
     if (options.fillers.empty())
       measure(mesh, arguments, outcome);

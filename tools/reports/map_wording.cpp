@@ -8,6 +8,7 @@
 
 #include "console/places.h"
 #include "embedding/frame/landmarks.h"
+#include "mesh/box.h"
 #include "number_text.h"
 #include "reports/told_losses.h"
 #include "reports/told_repairs.h"
@@ -102,6 +103,17 @@ void tell_stages(const MapOutcome& outcome, Console& console) {
 
 namespace {
 
+/// Vertices that mending put in have no number in the file.
+std::string pole_words(const FileNumbers& numbers, const Poles& poles) {
+  const long north = numbers.number(poles.north), south = numbers.number(poles.south);
+  if (north >= 0 && south >= 0)
+    return "vertices " + std::to_string(north) + " and " + std::to_string(south);
+  const auto words = [](long number) {
+    return number >= 0 ? "vertex " + std::to_string(number) : "a vertex that closes a hole";
+  };
+  return words(north) + " and " + words(south);
+}
+
 /// Where the poles are: the paper's smoothing may have moved those that its map was built about.
 std::string place_of_poles(const Parameterization& result, const Poles& poles) {
   const bool exact = all_exact(pin_residuals(
@@ -118,9 +130,7 @@ void tell_frame(const MapOutcome& outcome, Console& console) {
   const FileNumbers numbers(outcome.source.file);
   std::string line = "  ";
   if (result.poles) {
-    line += "vertices " + std::to_string(numbers.number(result.poles->north)) + " and " +
-            std::to_string(numbers.number(result.poles->south)) + " " +
-            place_of_poles(result, *result.poles);
+    line += pole_words(numbers, *result.poles) + " " + place_of_poles(result, *result.poles);
   }
   if (!outcome.options.pins.empty()) {
     line += (result.poles ? ", " : "") + std::to_string(outcome.options.pins.size()) + " pinned";
@@ -145,7 +155,8 @@ void tell_likeness(const Likeness& likeness, const std::string& other, Console& 
 void tell_directions(const MapOutcome& outcome, Console& console) {
   if (!outcome.has_map()) return;
   if (outcome.likeness) tell_likeness(*outcome.likeness, outcome.other, console);
-  if (const auto& radial = outcome.result.radial) console.say("  " + radial_line(*radial));
+  if (const auto& radial = outcome.result.radial)
+    console.say("  " + radial_line(*radial, longest_side(outcome.source.file.mesh)));
   const UprightAxes axes = upright_axes(outcome.source.file);
   if ((outcome.result.radial || outcome.options.align_to) && axes.up != Vector3::UnitZ())
     console.say("  " + name_of_direction(axes.up) + " points up in the file: it is north");

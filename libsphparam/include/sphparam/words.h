@@ -35,8 +35,9 @@ std::string flat_images_words(const DistortionSummary& distortion);
 std::string distortion_line(const DistortionSummary& distortion);
 
 /// "planetocentric: the surface is star-shaped about (0, 0, 0)", or what folds there and how far
-/// the map had to go from these directions.
-std::string radial_line(const RadialRecord& radial);
+/// the map had to go from these directions. A centre that is farther from the origin than the
+/// body is long has as many digits as its places want; a length of 0: three.
+std::string radial_line(const RadialRecord& radial, double length = 0);
 
 /// "harmonic: 0.12 s, 3 folds, angle 0.55 area 0.59"
 std::string stage_line(const StageRecord& stage);

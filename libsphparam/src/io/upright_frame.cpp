@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "curvilinear/middle_poles.h"
+
 namespace sphparam {
 namespace {
 
@@ -13,15 +15,18 @@ std::string words(const UprightAxes& axes) {
 
 ParameterizeOptions with_upright_frame(ParameterizeOptions options, const TriangleMesh& mesh,
                                        const Topology& topology, const UprightAxes& axes) {
-  if (!options.poles) options.poles = poles_along(mesh, topology, axes.up);
+  if (!options.poles)
+    options.poles = middle_poles(mesh, topology, axes.up, options.fillers,
+                                 poles_along(mesh, topology, axes.up));
   if (!options.meridian)
     options.meridian = vertex_along(mesh, axes.front, {options.poles->north, options.poles->south});
   return options;
 }
 
 std::string upright_words(const SphereMap& map, const TriangleMesh& mesh, const Topology& topology,
-                          const UprightAxes& axes) {
-  const ParameterizeOptions upright = with_upright_frame({}, mesh, topology, axes);
+                          const UprightAxes& axes, const FillerMarks& fillers) {
+  const ParameterizeOptions upright =
+      with_upright_frame({.fillers = fillers}, mesh, topology, axes);
   const Vector3 front = map.point(*upright.meridian);
   const bool stands = map.point(upright.poles->north) == Vector3(0, 0, 1) &&
                       map.point(upright.poles->south) == Vector3(0, 0, -1) && front.y() == 0 &&

@@ -67,8 +67,7 @@ void hold(MapInProgress& work, const std::vector<Pin>& pins) {
     work.warn(*suspicion);
   }
   const DistortionEnergy measure = work.energy;
-  const double energy = distortion_energy(work.topology, work.source(), work.result.map, measure,
-                                          work.options.threads);
+  const double energy = work.surface_energy(work.result.map, measure);
   Parameterization before = work.result;
   MapInProgress::BalanceState balance = work.balance_state();
   work.forget_poles();
@@ -79,10 +78,7 @@ void hold(MapInProgress& work, const std::vector<Pin>& pins) {
     if (work.options.pins.empty()) move_to_poles(work, {pins[0].vertex, pins[1].vertex});
   }
   if (!note_residuals(work, pins)) work.warn("the poles could not be moved to ±z without folds");
-  work.result.pole_cost = distortion_energy(work.topology, work.source(), work.result.map, measure,
-                                            work.options.threads) /
-                              energy -
-                          1;
+  work.result.pole_cost = work.surface_energy(work.result.map, measure) / energy - 1;
 }
 
 }  // namespace sphparam

@@ -2,6 +2,9 @@
 
 #include <utility>
 
+#include "sphere/face_rays.h"
+#include "sphparam/parallel.h"
+
 // The gate: stages hand their maps in here, and each gets its certificate. What a stage has made is
 // taken as it is, folds and all; a change of frame is not worth a fold.
 
@@ -18,6 +21,22 @@ MapInProgress::MapInProgress(const TriangleMesh& given_mesh, const Topology& giv
 const RestTriangles& MapInProgress::source() {
   if (source_.empty()) source_ = measure_source(mesh, options.threads);
   return source_;
+}
+
+double MapInProgress::surface_energy(const SphereMap& map, const DistortionEnergy& measure) {
+  if (options.fillers.empty())
+    return distortion_energy(topology, source(), map, measure, options.threads);
+  const RestTriangles& triangles = source();
+  return parallel_sum(mesh.face_count(), options.threads, [&](std::int64_t f0, std::int64_t f1) {
+    double sum = 0;
+    for (Face f = static_cast<Face>(f0); f < static_cast<Face>(f1); ++f) {
+      const auto i = static_cast<size_t>(f);
+      if (options.fillers[i]) continue;
+      const auto [d, s] = distortion(triangles[i], face_rays(topology, map, f));
+      sum += triangles[i].area * energy_density(measure, d, s);
+    }
+    return sum;
+  });
 }
 
 void MapInProgress::restore(BalanceState state) {

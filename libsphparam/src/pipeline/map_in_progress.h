@@ -39,6 +39,8 @@ class MapInProgress {
 
   /// Of the mesh; measured when first needed.
   const RestTriangles& source();
+  /// `distortion_energy` of the surface: fillers may be as much distorted as they like.
+  double surface_energy(const SphereMap& map, const DistortionEnergy& measure);
   /// What the map is optimal for: the source, or what a balance has made of it.
   const RestTriangles& aim() { return aim_.empty() ? source() : aim_; }
   void aim_at(RestTriangles aim) { aim_ = std::move(aim); }

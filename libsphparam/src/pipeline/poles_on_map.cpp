@@ -130,6 +130,10 @@ void choose_poles_on_map(MapInProgress& work) {
   }
   const Vertex meridian =
       work.options.meridian ? *work.options.meridian : quiet_meridian(work, placement->map);
+  if (!work.options.fillers.empty()) {  // which may weigh more than all of the surface
+    placement->energy_before = work.surface_energy(work.result.map, work.options.energy);
+    placement->energy_after = work.surface_energy(placement->map, work.options.energy);
+  }
   if (!turn(work, placement->map, meridian) &&
       !work.accept_if_certified(std::move(placement->map))) {
     work.restore(std::move(before));

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "mesh/box.h"
-#include "number_text.h"
+#include "place_text.h"
 #include "sphere/solid_angle.h"
 #include "sphparam/mesh/mass_properties.h"
 
@@ -15,12 +15,6 @@ namespace {
 Points seen_from(const TriangleMesh& mesh, const Vector3& point) {
   const double side = longest_side(mesh), size = side > 0 ? side : 1;
   return (mesh.positions / size).rowwise() - (point / size).transpose();
-}
-
-std::string typed(const Vector3& point) {
-  constexpr int digits = 6;
-  return short_number(point.x(), digits) + "," + short_number(point.y(), digits) + "," +
-         short_number(point.z(), digits);
 }
 
 }  // namespace
@@ -46,6 +40,9 @@ bool winds_about(const TriangleMesh& mesh, const Vector3& point) {
 
 std::string line_of_outside(const TriangleMesh& mesh, const Vector3& centre) {
   if (winds_about(mesh, centre)) return "";
+  const auto typed = [&](const Vector3& point) {
+    return place_text(point, longest_side(mesh), ",");
+  };
   const std::string told = "the centre " + typed(centre) + " lies outside of the surface";
   const Vector3 centroid = enclosed_centroid(mesh);
   if (!winds_about(mesh, centroid)) return told + ", as the centroid of what it encloses does";

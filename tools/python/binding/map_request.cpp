@@ -6,6 +6,7 @@
 
 #include "arrays.h"
 #include "sphparam/io/file_numbers.h"
+#include "sphparam/io/fillers.h"
 #include "sphparam/io/planetocentric.h"
 #include "sphparam/io/upright_frame.h"
 #include "sphparam/names.h"
@@ -85,6 +86,7 @@ void stand(Request& request, MeshFile& file, const Topology& topology) {
   if (!request.upright_poles && !options.poles) return;
   const bool has_date_line = options.method == Method::Paper;  // where θ is 0
   const std::optional<Vertex> meridian = options.meridian;
+  options.fillers = fillers_of(file);
   options = with_upright_frame(std::move(options), file.mesh, topology, axes);
   if (has_date_line) options.meridian = meridian;
 }

@@ -96,7 +96,8 @@ Mapped map_mesh(MeshSource source, Request request) {
   const FileNumbers numbers(source.file);
   std::string upright;
   if (request.stands)
-    upright = upright_words(result.map, source.file.mesh, topology, upright_axes(source.file));
+    upright = upright_words(result.map, source.file.mesh, topology, upright_axes(source.file),
+                            options.fillers);
   Provenance provenance = provenance_of(result,
                                         {.method = name_of(options.method),
                                          .options = options_line(options),
