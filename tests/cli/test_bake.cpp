@@ -570,4 +570,62 @@ TEST_CASE("bake: an image whose sidecar cannot be written does not appear either
   CHECK_FALSE(fs::exists(folder / "b.tif"));
 }
 
+TEST_CASE("bake: a texture that is not in the map's file is told, faces without coordinates too") {
+  const Folder folder;
+  const std::string mesh = folder / "ball.obj", map = folder / "ball.sph.ply",
+                    skin = folder / "skin.png", out = folder / "x.png";
+  write_image(skin, two_colours());
+  write_bytes(folder / "ball.mtl", "newmtl skin\nmap_Kd skin.png\n");
+  std::string text = "mtllib ball.mtl\n" + textured_ball();
+  text.insert(text.find("\nf ") + 1, "usemtl skin\n");
+  for (size_t i = text.find("\nv "); i != std::string::npos; i = text.find("\nv ", i + 1))
+    text.insert(text.find('\n', i + 1), " 0.5 0.5 0.5");
+  write_bytes(mesh, text);
+  REQUIRE(sphparam_program({"map", mesh, "-o", map}).code == 0);
+  const auto told = [&](std::vector<std::string> more) {
+    std::vector<std::string> words = {"bake", map, "--size", "32", "-o", out};
+    words.insert(words.end(), more.begin(), more.end());
+    const Ended ended = sphparam_program(words);
+    INFO(ended.err);
+    CHECK(ended.code == 0);
+    return ended.err;
+  };
+  CHECK_THAT(told({"--map", "basecolor"}),
+             Contains("warning: ball.sph.ply: baked without its texture, which is not in this "
+                      "file (") &&
+                 Contains("--texture IMAGE names it, or the file that was mapped, with --sphere "
+                          "ball.sph.ply, has it"));
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{"--map", "ao"}, {"--map", "basecolor", "--texture", skin}})
+    CHECK_THAT(told(more), !Contains("texture"));
+  const size_t face = text.find("\nf ") + 1;
+  std::string bare = text.substr(face, text.find('\n', face) - face), plain;
+  for (size_t i = 0; i < bare.size(); ++i) {
+    if (bare[i] == '/') i = std::min(bare.find(' ', i), bare.size());
+    if (i < bare.size()) plain += bare[i];
+  }
+  write_bytes(mesh, text.replace(face, bare.size(), plain));
+  const Ended unplaced = sphparam_program({"bake", mesh, "--size", "32", "-o", out});
+  INFO(unplaced.err);
+  CHECK(unplaced.code == 0);
+  CHECK_THAT(unplaced.err, Contains("warning: 1 triangle has no texture coordinates, or all at "
+                                    "(0, 0): the texture's corner is seen there"));
+}
+
+TEST_CASE("bake: heights above triangles that are smaller than texels are told") {
+  const Folder folder;
+  const std::string mesh = folder / "ball.obj", map = folder / "ball.sph.ply";
+  write_bytes(mesh, obj_text(icosphere(3)));
+  REQUIRE(sphparam_program({"map", mesh, "-o", map}).code == 0);
+  const auto told = [&](const std::string& field, const std::string& size) {
+    return sphparam_program({"bake", map, "--from", mesh, "--map", field, "--size", size, "-o",
+                             folder / "x.tif"})
+        .err;
+  };
+  CHECK_THAT(told("height", "16"), Contains("warning: height: 99.1 % of the mesh has triangles "
+                                            "smaller than texels"));
+  CHECK_THAT(told("height", "1024"), !Contains("smaller than texels"));
+  CHECK_THAT(told("height:radial", "16"), !Contains("smaller than texels"));
+}
+
 }  // namespace sphparam::tests

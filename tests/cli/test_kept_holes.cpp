@@ -447,4 +447,49 @@ TEST_CASE("parts: one that cannot be mapped ends it, but for specks, which are t
         2);
 }
 
+TEST_CASE(
+    "kept holes: a pole in the middle of what closes one is called so, one rim for two is told") {
+  const Folder folder;
+  const std::string mesh = folder / "bowl.obj", map = folder / "bowl.sph.ply";
+  write_bytes(mesh, obj_text(bowl()));
+  const Ended open = sphparam_program({"map", mesh, "-o", map, "--keep-holes", "--up", "z"});
+  INFO(open.err);
+  CHECK(open.code == 0);
+  CHECK_THAT(open.err, Contains("  a vertex that closes a hole and vertex ") &&
+                           Contains(" at ±z: ") && !Contains("-1") && !Contains("one hole"));
+  // What is left of a ball above the middle has both sides on its rim.
+  TriangleMesh cap = bowl();
+  std::string text, faces;
+  for (const auto& x : cap.positions.rowwise())
+    text += "v " + std::to_string(x[0]) + " " + std::to_string(x[1]) + " " + std::to_string(x[2]) +
+            "\n";
+  for (const auto& f : cap.triangles.rowwise())
+    if (cap.positions(f[0], 2) < -0.5)
+      text += "f " + std::to_string(f[0] + 1) + " " + std::to_string(f[1] + 1) + " " +
+              std::to_string(f[2] + 1) + "\n";
+  write_bytes(mesh, text);
+  const Ended both = sphparam_program({"map", mesh, "-o", map, "--keep-holes", "--up", "x"});
+  INFO(both.err);
+  CHECK(both.code == 0);
+  CHECK_THAT(both.err, Contains("warning: top and bottom both lie on the rim of one hole that is "
+                                "kept: ") &&
+                           Contains("--poles auto"));
+}
+
+TEST_CASE("kept holes: what is advised for --sphere keeps them too, and can be typed") {
+  const MappedBowl bowl;
+  const std::string low = bowl.folder / "low.obj";
+  std::vector<std::string> words = {"remesh", bowl.mesh, "--sphere", bowl.map,
+                                    "--grid", "ico:2",   "-o",       low};
+  const Ended refused = sphparam_program(words);
+  CHECK(refused.code == 4);
+  CHECK_THAT(refused.err, Contains("  --sphere has a map of this mesh with its holes kept: "
+                                   "`sphparam remesh ") &&
+                              Contains(low + " --repair --keep-holes`") && !Contains("max-hole"));
+  words.insert(words.end(), {"--repair", "--keep-holes"});
+  const Ended done = sphparam_program(words);
+  INFO(done.err);
+  CHECK(done.code == 0);
+}
+
 }  // namespace sphparam::tests

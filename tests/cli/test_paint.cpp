@@ -145,4 +145,25 @@ TEST_CASE("paint: a picture that is not twice as wide as high is painted, with a
   CHECK_THAT(ended.err, Contains("twice as wide as high"));
 }
 
+TEST_CASE("paint: of a mesh with several images it is told that --atlas makes one of them") {
+  const Folder folder;
+  const std::string image = folder / "red.png", mesh = folder / "two.obj";
+  write_image(image, Image(8, 4, 3));
+  for (const char* skin : {"a.png", "b.png"}) write_image(folder / skin, Image(4, 4, 3));
+  const auto told = [&](const std::string& second) {
+    write_bytes(folder / "two.mtl", "newmtl a\nmap_Kd a.png\nnewmtl b\nmap_Kd " + second + "\n");
+    std::string text = "mtllib two.mtl\n" + obj_with_atlas(icosphere(1));
+    text.insert(text.find("\nf ") + 1, "usemtl a\n");
+    text.insert(text.rfind("f "), "usemtl b\n");
+    write_bytes(mesh, text);
+    const Ended ended = sphparam_program(
+        {"paint", mesh, "--image", image, "--atlas", "64", "-o", folder / "skin.png"});
+    CHECK(ended.code == 0);
+    return ended.err;
+  };
+  CHECK_THAT(told("b.png"), Contains("warning: two.obj: its texture is of 2 images") &&
+                                Contains("`sphparam export " + mesh + " --image " + image));
+  CHECK_THAT(told("a.png"), !Contains("images"));
+}
+
 }  // namespace sphparam::tests

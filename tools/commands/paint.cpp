@@ -3,6 +3,7 @@
 
 #include "sphparam/paint/paint.h"
 
+#include <set>
 #include <utility>
 
 #include "commands/command.h"
@@ -10,6 +11,7 @@
 #include "console/places.h"
 #include "io/attributes/appearance.h"
 #include "io/attributes/texture_pages.h"
+#include "io/shell_word.h"
 #include "number_text.h"
 #include "reports/told_losses.h"
 #include "sphparam/io/certified_files.h"
@@ -77,8 +79,26 @@ EquirectangularImage read_picture(const PaintArguments& arguments, const MappedM
   throw UsageMistake(std::string("--convention: ") + error.what());
 }
 
+/// One image cannot be what lay on several: their charts are upon each other.
+void tell_pages(const PaintArguments& arguments, const MeshFile& file, Console& console) {
+  std::set<std::string> images;
+  for (const MaterialTexture& colour : file.base_colours)
+    if (!colour.image.empty()) images.insert(colour.image);
+  if (images.size() < 2) return;
+  const std::string mesh = is_stream(arguments.input) ? "MESH" : shell_file(arguments.input),
+                    image = is_stream(arguments.image) ? "IMAGE" : shell_file(arguments.image);
+  console.warning(display_name(arguments.input) + ": its texture is of " +
+                  std::to_string(images.size()) +
+                  " images, and this is one for all of them, in which their charts lie upon each "
+                  "other: `sphparam export " +
+                  mesh + " --image " + image +
+                  " -o FILE.glb` shows it by texture coordinates of its own, paint without --atlas "
+                  "as colours of vertices");
+}
+
 std::string atlas(const PaintArguments& arguments, const MappedMesh& source,
                   const EquirectangularImage& image, Session& session) try {
+  tell_pages(arguments, source.file(), session.console);
   const PaintedAtlas painted = paint_atlas(source, image,
                                            {.size = arguments.atlas,
                                             .padding = arguments.padding,

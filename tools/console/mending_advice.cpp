@@ -4,6 +4,8 @@
 #include <filesystem>
 
 #include "io/shell_word.h"
+#include "sphparam/io/fillers.h"
+#include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/repair_advice.h"
 #include "sphparam/names.h"
@@ -67,6 +69,22 @@ bool has(const Words& words, const std::string& word) {
   return std::ranges::find(words, word) != words.end();
 }
 
+/// Behind an option or its "="; empty: it is not there.
+std::string value_of(const Words& words, const std::string& option) {
+  for (size_t at = 0; at < words.size(); ++at) {
+    if (words[at].starts_with(option + "=")) return words[at].substr(option.size() + 1);
+    if (words[at] == option && at + 1 < words.size()) return words[at + 1];
+  }
+  return "";
+}
+
+/// Whether the map in a file is of a mesh whose holes were kept.
+bool keeps_holes(const std::string& map) try {
+  return !map.empty() && !is_stream(map) && !fillers_of(read_mesh(map)).empty();
+} catch (const std::exception&) {
+  return false;
+}
+
 }  // namespace
 
 std::string advice_for(const Words& words, const MeshRefusal& refusal) {
@@ -76,6 +94,9 @@ std::string advice_for(const Words& words, const MeshRefusal& refusal) {
   const Words rest = without_repairs(words);
   if (has(rest, "--all-components")) return advice_for_component(words, rest, refusal);
   if (!refusal.trial()) return repair_advice(refusal);
+  if (rest.size() == words.size() && keeps_holes(value_of(rest, "--sphere")))
+    return "  --sphere has a map of this mesh with its holes kept: `" +
+           typed(rest, "--repair --keep-holes") + "`\n";
   return repair_advice(refusal, typed(rest, options_line(refusal.trial()->options)));
 }
 

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "bake/baked_chart.h"
+#include "bake/chart_piece.h"
 #include "bake/choose_target.h"
 #include "bake/field_registry.h"
 #include "bake/georeference/georeference.h"
@@ -19,6 +20,7 @@
 #include "bake/texels/calm_walls.h"
 #include "bake/write_images.h"
 #include "io/attributes/array_lengths.h"
+#include "io/attributes/material_comments.h"
 #include "io/attributes/one_material.h"
 #include "mesh/box.h"
 #include "number_text.h"
@@ -115,6 +117,63 @@ std::string centre_line(const MappedMesh& source, const std::vector<BakeRequest>
 
 bool needs_textures(const std::string& field) { return field == "basecolor"; }
 
+/// The texture of what is baked may be where its file comes from.
+std::string left_behind_line(const MappedMesh& source, const MeshFile& baked,
+                             const BakeSettings& settings) {
+  const std::string words = left_behind_texture(baked);
+  if (words.empty()) return "";
+  const std::string name = source_name(source, settings);
+  return name + ": baked without its texture, which is not in this file (" + words +
+         "): --texture IMAGE names it, or the file that was mapped" +
+         (settings.from ? "" : ", with --sphere " + name) + ", has it";
+}
+
+/// Readers put corners that have no texture coordinates at (0, 0); one that has them may be there,
+/// all three are not.
+std::string unplaced_line(const BakeSource& source) {
+  const MeshFile& file = source.file();
+  if (!file.corner_texcoords || source.textures.empty()) return "";
+  const auto is_unplaced = [&](Face f) {
+    return file.corner_texcoords->middleRows<3>(Eigen::Index{3} * f).isZero(0);
+  };
+  const bool of_materials = !source.one_texture_for_all;
+  const Property* const material = of_materials ? file.find_face_property("material") : nullptr;
+  const auto has_image = [&](Face f) {
+    const double which = material ? material->values[static_cast<size_t>(f)] : 0;
+    const auto count = static_cast<double>(source.textures.size());
+    return which >= 0 && which < count && source.textures[static_cast<size_t>(which)].image;
+  };
+  long unplaced = 0;
+  for (Face f = 0; f < file.mesh.face_count(); ++f) unplaced += has_image(f) && is_unplaced(f);
+  if (unplaced == 0) return "";
+  return counted(unplaced, "triangle has", "triangles have") +
+         " no texture coordinates, or all at (0, 0): the texture's corner is seen there";
+}
+
+/// Where texels hold several triangles of the mesh that heights are above, these are measured from
+/// the plane of one of them, and its bends are counted as heights.
+std::string crowded_height_line(const BakeScene& scene, const std::vector<BakeRequest>& images,
+                                const BakeSettings& settings) {
+  constexpr double least_told = 0.01;  // of the area
+  const bool radial = settings.fields.height_radial || scene.target.is_source;
+  if (radial || std::ranges::count(images, "height", &BakeRequest::field) == 0) return "";
+  const double texel = 2.0 / (static_cast<double>(settings.width) * settings.width);
+  double crowded = 0, all = 0;
+  for (Face f = 0; f < static_cast<Face>(scene.target.chart.triangles.rows()); ++f) {
+    const auto corner = [&](int k) -> Vector3 {
+      return scene.target.positions.row(scene.target.chart.triangles(f, k));
+    };
+    const double area = (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
+    all += area;
+    if (2 * ChartPiece(scene.target.chart, f).area() < texel) crowded += area;
+  }
+  if (!(crowded >= least_told * all)) return "";
+  return "height: " + percent(crowded / all) +
+         " of the mesh has triangles smaller than texels: there heights are means above the plane "
+         "of one of several triangles, and how the mesh bends is among them; a larger --size has "
+         "less of it";
+}
+
 ImageTexts texts_of_all(const MappedMesh& source, const BakeSettings& settings) {
   ImageTexts texts = {{"sphparam:version", version},
                       {"sphparam:source", source_name(source, settings)}};
@@ -174,9 +233,13 @@ BakeReport bake(const MappedMesh& source, const std::vector<BakeRequest>& images
   for (std::string& warning : warnings_of(scene.source.textures))
     report.warnings.push_back(std::move(warning));
   report_projection(scene, settings, report);
-  if (with_textures && settings.texture.empty())
+  if (with_textures && settings.texture.empty()) {
     for (std::string& warning : one_material(scene.source.file()).warnings)
       report.warnings.push_back(std::move(warning));
+    add_line(report, left_behind_line(source, scene.source.file(), settings));
+  }
+  if (with_textures) add_line(report, unplaced_line(scene.source));
+  add_line(report, crowded_height_line(scene, images, settings));
   scene.walls = walls_of(scene, settings);
   if (scene.walls) report.wall_share = scene.walls->area_share();
   std::vector<PlannedImage> plan;
