@@ -591,13 +591,38 @@ TEST_CASE("export: --textures says what images are, sizes are told, and .obj tak
 TEST_CASE("export: images that an .obj has no place for are told, and not counted") {
   const Egg egg;
   REQUIRE(egg.run("egg.obj.obj").code == 0);
-  for (const char* image : {"a_basecolor.png", "a_orm.png"})
+  std::filesystem::create_directory(egg.folder / "in");
+  for (const char* image : {"in/a_basecolor.png", "in/a_orm.png"})
     std::filesystem::copy_file(egg.folder / "egg.obj_checker.png", egg.folder / image);
-  const Ended left = egg.run("left.obj", {"--images", egg.folder / "", "--textures", "png"});
+  const Ended left = egg.run("left.obj", {"--images", egg.folder / "in", "--textures", "png"});
   INFO(left.err);
   REQUIRE(left.code == 0);
-  CHECK_THAT(left.err,
-             Contains("warning: not carried: the image orm") && Contains("  1 image of "));
+  CHECK_THAT(left.err, Contains("warning: not carried: occlusion of the image orm: ") &&
+                           Contains("  3 images of "));
+  const Ended ply = egg.run("left.ply", {"--images", egg.folder / "in", "--textures", "png"});
+  CHECK_THAT(ply.err,
+             Contains("warning: not carried: the image orm: ") && Contains("  1 image of "));
+}
+
+TEST_CASE("export: an .obj takes no normal map with y down; of a folder it is left out and told") {
+  const Egg egg;
+  const std::string normals = egg.folder / "in/egg_normal-tangent.png";
+  REQUIRE(egg.run("a.obj").code == 0);
+  std::filesystem::create_directory(egg.folder / "in");
+  std::filesystem::copy_file(egg.folder / "a_checker.png", egg.folder / "in/egg_basecolor.png");
+  REQUIRE(sphparam_program({"bake", egg.mesh, "--map", "normal-tangent", "--normal-y", "dx",
+                            "--size", "64", "-o", normals})
+              .code == 0);
+  const Ended left = egg.run("x.obj", {"--images", egg.folder / "in"});
+  INFO(left.err);
+  REQUIRE(left.code == 0);
+  CHECK_THAT(left.err, Contains("not carried: ") && Contains("is baked with +Y down (DirectX)"));
+  CHECK_THAT(bytes_of(egg.folder / "x.mtl"), !Contains("norm "));
+  CHECK(egg.run("x.glb", {"--images", egg.folder / "in"}).code == 2);
+  CHECK(egg.run("y.obj", {"--normal-map", normals}).code == 2);
+  CHECK(egg.run("y.ply", {"--orm-map", egg.folder / "in/egg_basecolor.png"}).code == 2);
+  CHECK(egg.run("y.obj", {"--orm-map", egg.folder / "in/egg_basecolor.png"}).code == 0);
+  CHECK_THAT(bytes_of(egg.folder / "y.mtl"), Contains("map_Pr y_roughness.png\n"));
 }
 
 TEST_CASE("export: the same bytes for any number of threads") {

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 #include <set>
+#include <tuple>
 
 #include "../chart/maps.h"
 #include "image/image_codec.h"
@@ -439,21 +441,112 @@ TEST_CASE("export: textured meshes are certified as read back, with the files th
                   std::invalid_argument);
 }
 
+TEST_CASE("export: an .obj has normals, roughness, metallic and emission too, read back as given") {
+  const Folder folder;
+  const MappedMesh egg = mapped_egg(2);
+  ExportOptions options = small;
+  Image orm(4, 2, 3), lamp(4, 2, 3), bumps(4, 2, 3);
+  for (std::size_t i = 0; i < orm.pixels.size(); ++i) orm.pixels[i] = static_cast<float>(i) / 255;
+  lamp.pixels[0] = bumps.pixels[2] = 1;
+  options.look.orm = folder / "given_orm.png";
+  options.look.emissive = folder / "given_emissive.png";
+  options.look.normal = folder / "given_normal-tangent.png";
+  write_image(options.look.orm, orm);
+  write_image(options.look.emissive, lamp, {.metadata = {{"sphparam:strength", "2.5"}}});
+  write_image(options.look.normal, bumps);
+  const TexturedFiles written = write_textured_mesh(folder / "a.obj", egg, options);
+  CHECK(written.warnings ==
+        Names{"not carried: occlusion of the image orm: .glb and .gltf have room "
+              "for that"});
+  CHECK(written.files.size() == 7);
+  CHECK_NOTHROW(write_textured_mesh(folder / "a.obj", egg, options));  // all of these are its own
+  const std::string library = bytes_of(folder / "a.mtl");
+  CHECK(
+      library.ends_with("map_Kd a_white.png\nPr 1\nPm 1\nKe 2.5 2.5 2.5\n"
+                        "map_Pr a_roughness.png\nmap_Pm a_metallic.png\n"
+                        "map_Ke a_emissive.png\nnorm a_normal.png\n"));
+  const MaterialChannels said = read_mesh(folder / "a.obj").channels.at(0);
+  CHECK(said.roughness.factor[0] == 1);
+  CHECK(said.metallic.factor[0] == 1);
+  CHECK(said.emission.factor == std::array<double, 4>{2.5, 2.5, 2.5, 1});
+  const auto pixels = [](const MaterialTexture& texture) {
+    return read_image(texture.folder + "/" + texture.path).pixels;
+  };
+  CHECK(pixels(said.emission) == read_image(options.look.emissive).pixels);
+  CHECK(pixels(said.normal) == read_image(options.look.normal).pixels);
+  const std::vector<float> roughness = pixels(said.roughness), metallic = pixels(said.metallic);
+  REQUIRE(roughness.size() == 8);
+  REQUIRE(metallic.size() == 8);
+  const std::vector<float> given = read_image(options.look.orm).pixels;
+  for (std::size_t i = 0; i < 8; ++i) {
+    CHECK(roughness[i] == given[3 * i + 1]);
+    CHECK(metallic[i] == given[3 * i + 2]);
+  }
+  write_textured_mesh(folder / "b.ply", egg, options);
+  CHECK_FALSE(std::filesystem::exists(folder / "b_roughness.png"));
+}
+
+TEST_CASE("export: of an .obj roughness and metallic that are one number stand in its library") {
+  const Folder folder;
+  const MappedMesh egg = mapped_egg(2);
+  Look look = make_look(egg, small);
+  look.materials.front().roughness = 0.25;
+  look.materials.front().metallic = 1;
+  PendingFiles files;
+  CHECK(add_textured_mesh(files, folder / "a.obj", egg, look, small).warnings.empty());
+  files.publish();
+  const MaterialChannels said = read_mesh(folder / "a.obj").channels.at(0);
+  CHECK(said.roughness.factor[0] == 0.25);
+  CHECK(said.metallic.factor[0] == 1);
+  CHECK(said.roughness.image.empty());
+}
+
+TEST_CASE("export: u and v by place, on the sphere of a glTF file, are those of the docs") {
+  const auto turns_apart = [](double a, double b) { return std::abs(a - b - std::round(a - b)); };
+  for (const bool upright : {false, true}) {
+    MappedMesh ball = mapped_egg(2);
+    if (upright) ball = ball.with_map(ball.map(), {{"upright", "z, front -y"}});
+    for (const auto& [convention, turns, offset] : {std::tuple(Convention::Sphparam, 1, 0.0),
+                                                    {Convention::Three, 1, 0.5},
+                                                    {Convention::Gis, 1, 0.5},
+                                                    {Convention::Envmap, -1, 0.25},
+                                                    {Convention::Blender, -1, 0.5}}) {
+      ExportOptions options = small;
+      options.shape = ShapeKind::Sphere;
+      options.convention = convention;
+      const Asset asset = make_asset(ball, options);
+      const Surface& sphere = asset.levels.front();
+      for (Eigen::Index i = 0; i < sphere.positions.rows(); ++i) {
+        const Vector3 p = sphere.positions.row(i).cast<double>();
+        if (std::hypot(p.x(), p.z()) < 1e-3) continue;
+        const double theta = upright ? std::atan2(p.x(), p.z()) : std::atan2(-p.z(), p.x());
+        const double u = turns * theta / (2 * std::numbers::pi) + (upright ? offset : 0);
+        const FloatRows& uv = sphere.texcoords.front();
+        CHECK(turns_apart(u, static_cast<double>(uv(i, 0))) < 1e-5);
+        CHECK(static_cast<double>(uv(i, 1)) ==
+              Approx(std::acos(p.y()) / std::numbers::pi).margin(1e-5));
+      }
+    }
+  }
+}
+
 TEST_CASE("export: what of a look an .obj has no words for is told") {
   const Folder folder;
   const MappedMesh egg = mapped_egg(2);
   CHECK(write_textured_mesh(folder / "plain.obj", egg, small).warnings.empty());
   Look look = make_look(egg, small);
   look.warnings = {"said before"};
-  look.images.push_back({"normal", look.images.front().bytes});
-  look.materials.front().normal = 1;
+  look.images.push_back({"occlusion", look.images.front().bytes});
+  look.materials.front().occlusion = 1;
   look.materials.front().alpha_mode = AlphaMode::Mask;
   look.materials.front().finish.clearcoat = 1;
   PendingFiles files;
-  CHECK(add_textured_mesh(files, folder / "a.obj", egg, look, small).warnings ==
-        Names{"said before",
-              "not carried: the image normal, how alpha is meant and KHR_materials_clearcoat: .glb "
-              "and .gltf have room for that"});
+  CHECK(
+      add_textured_mesh(files, folder / "a.obj", egg, look, small).warnings ==
+      Names{
+          "said before",
+          "not carried: the image occlusion, how alpha is meant and KHR_materials_clearcoat: .glb "
+          "and .gltf have room for that"});
 }
 
 TEST_CASE("export: what an image says of its light is taken if it is a number of glTF's") {

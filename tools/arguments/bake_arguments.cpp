@@ -81,7 +81,8 @@ void declare_inputs(Declaration& command, BakeArguments& arguments) {
             "normals, its surface as base of heights; one with a map of its own is refused")
       .text("--from", arguments.from, "FILE",
             "Another surface about where the mesh is, any triangles: it is baked on the mesh")
-      .crease(arguments.crease);
+      .crease(arguments.crease)
+      .source_normals(arguments.source_normals_down);
 }
 
 void declare_body(Declaration& command, BakeArguments& arguments) {

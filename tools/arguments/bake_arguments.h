@@ -23,6 +23,7 @@ struct BakeArguments : CommonArguments {
   bool all_components = false;                    // of the files that `map` made of parts
   RepairArguments repair;                         // of the mesh
   double crease = -1;                             // degrees; below 0: none
+  bool source_normals_down = false;               // green of its own normal maps
   CentreArgument centre;                          // of the body
   double unit = 1;                                // metres that the mesh's unit has
   std::function<bool(const std::string&)> given;  // was this option on the command line?

@@ -173,6 +173,12 @@ Declaration& Declaration::crease(double& degrees) {
       "Where the mesh has no normals, edges that turn by more are hard (default: none is)");
 }
 
+Declaration& Declaration::source_normals(bool& down) {
+  return choice("--source-normal-y", down, {{"gl", false}, {"dx", true}},
+                "Where green points in the normal maps that the mesh comes with: up or down the "
+                "image, as DirectX has it (default: gl)");
+}
+
 Declaration& Declaration::refine_poles(int& wedges, const std::string& about) {
   return number("--refine-poles", wedges, "N", {1, 1024}, about);
 }
@@ -193,6 +199,8 @@ Declaration& Declaration::console(CommonArguments& arguments) {
       "How far it is; auto: on a terminal (default: auto)");
   flag("-q,--quiet", arguments.quiet, "Errors only");
   flag("-v,--verbose", arguments.verbose, "Every stage");
+  flag("--fail-on-warnings", arguments.strict,
+       "Exit with status 6 where something is warned of or lost; outputs are written");
   declare_limits(*this);
   return *this;
 }

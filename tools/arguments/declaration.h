@@ -80,6 +80,8 @@ class Declaration {
   Declaration& convention(Convention& convention);
   /// --crease: below 0 where none is wanted.
   Declaration& crease(double& degrees);
+  /// --source-normal-y: true where green points down the image.
+  Declaration& source_normals(bool& down);
   Declaration& refine_poles(int& wedges, const std::string& about);
   /// --json: what is in it.
   Declaration& json(CommonArguments& arguments, const std::string& what = "A report");

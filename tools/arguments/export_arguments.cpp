@@ -2,6 +2,10 @@
 
 #include "arguments/export_arguments.h"
 
+#include <algorithm>
+#include <array>
+#include <string_view>
+
 #include "arguments/ends.h"
 #include "arguments/numbers.h"
 #include "arguments/texture_arguments.h"
@@ -139,6 +143,9 @@ void refuse_combinations(const ExportArguments& a, const std::string& extension)
 void refuse_beyond_geometry(const ExportArguments& a, const std::string& extension) {
   const ExportOptions& e = a.exported;
   const LookOptions& look = e.look;
+  // Its .mtl has them too.
+  constexpr std::array<std::string_view, 3> of_library = {"--normal-map", "--orm-map",
+                                                          "--emissive-map"};
   const std::string only = " is for .glb and .gltf, not for " + extension;
   for (const auto& [given, option] : {std::pair{e.morph != Morph::None, "--morph"},
                                       {e.shape == ShapeKind::Flat, "--shape flat"},
@@ -156,7 +163,8 @@ void refuse_beyond_geometry(const ExportArguments& a, const std::string& extensi
                                       {a.lods > 0, "--lods"},
                                       {!a.lod_faces.empty(), "--lod-faces"},
                                       {a.lod_style == LodStyle::Msft, "--lod msft"}}) {
-    if (given) throw UsageMistake(option + only);
+    const bool in_library = extension == ".obj" && std::ranges::count(of_library, option) > 0;
+    if (given && !in_library) throw UsageMistake(std::string(option) + only);
   }
 }
 

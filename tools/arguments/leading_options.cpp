@@ -8,11 +8,13 @@ namespace sphparam::cli {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> flags = {"-q", "--quiet", "-v", "--verbose"};
+constexpr std::array<std::string_view, 5> flags = {"-q", "--quiet", "-v", "--verbose",
+                                                   "--fail-on-warnings"};
 constexpr std::array<std::string_view, 4> with_value = {"--progress", "--threads", "--max-memory",
                                                         "--limit"};
 
-bool is_among(const std::array<std::string_view, 4>& names, std::string_view word) {
+template <class Names>
+bool is_among(const Names& names, std::string_view word) {
   return std::find(names.begin(), names.end(), word) != names.end();
 }
 

@@ -47,8 +47,9 @@ constexpr char summary[] =
 
 struct AssetArguments : CommonArguments {
   std::string input, output;
-  double crease = -1;  // degrees; below 0: none
-  double scale = 1;    // of lengths
+  double crease = -1;                // degrees; below 0: none
+  double scale = 1;                  // of lengths
+  bool source_normals_down = false;  // green of its own normal maps
   RemakeOptions options;
 };
 
@@ -205,6 +206,7 @@ int run_asset(AssetArguments& arguments) {
   tell_losses(asset, session.console);
   scale_by(arguments.scale, asset.file, session);
   crease(asset.file, arguments.input, arguments.crease, session);
+  turn_normals(asset.file, arguments.input, arguments.source_normals_down, session);
   const RemadeAsset made = remade(asset, folder.path(), arguments, session);
   warn_of(made, arguments, folder.path(), session);
   session.add_report([&] { return to_json(asset, made); });
@@ -237,6 +239,7 @@ void declare_options(Declaration& command, AssetArguments& arguments) {
       .flag("--compress", options.compress, "A smaller .glb: EXT_meshopt_compression");
   declare_textures(command, options.textures, options.webp_quality);
   command.crease(arguments.crease)
+      .source_normals(arguments.source_normals_down)
       .up(options.up)
       .number("--scale", arguments.scale, "FACTOR", {1e-12, 1e12}, about_scale)
       .flag_off("--no-page", options.page, "Without the page")

@@ -72,6 +72,7 @@ MeshFile read_from(const BakeArguments& arguments, Session& session) {
   keep_companions(surface);
   attach_data_files(surface, arguments.from, arguments.data, MissingValues::LeftOut, session);
   crease(surface, arguments.from, arguments.crease, session);
+  turn_normals(surface, arguments.from, arguments.source_normals_down, session);
   return surface;
 }
 
@@ -81,7 +82,10 @@ MappedMesh read_mesh(const BakeArguments& arguments, Session& session) {
   const bool is_baked = arguments.from.empty();
   MeshSource source =
       read_mended(arguments.input, arguments.repair, session, is_baked ? arguments.data : Words{});
-  if (is_baked) crease(source.file, arguments.input, arguments.crease, session);
+  if (is_baked) {
+    crease(source.file, arguments.input, arguments.crease, session);
+    turn_normals(source.file, arguments.input, arguments.source_normals_down, session);
+  }
   return map_source(std::move(source), arguments.sphere, session, arguments.repair);
 }
 

@@ -4,10 +4,12 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "arguments/declaration.h"
 #include "console/exit_codes.h"
+#include "console/session.h"
 #include "sphparam/errors.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/read_options.h"
@@ -28,7 +30,12 @@ Command make_command(CLI::App& program, const std::string& name, const std::stri
   const auto arguments = std::make_shared<Arguments>();
   Declaration declaration(program, name, summary);
   declare(declaration, *arguments);
-  return {&declaration.app(), [arguments, run] { return run(*arguments); }};
+  return {&declaration.app(), [arguments, run] {
+            const int code = run(*arguments);
+            if constexpr (std::is_base_of_v<CommonArguments, Arguments>)
+              return strict_code(*arguments, code);
+            return code;
+          }};
 }
 
 /// Makes assets and adds their files: positions beyond float32 are the input's fault, more than a

@@ -67,7 +67,7 @@ ExportOptions export_options(const ExportArguments& arguments, Session& session)
   if (arguments.compress && options.shape != ShapeKind::Sphere) options.quantise = true;
   // Texts have an image in any case, beside which colours of vertices are not seen.
   const std::string kind = extension_of(arguments.output);
-  options.look.bake_colours = kind == ".obj" || kind == ".ply";
+  options.look.bake_colours = options.look.for_text = kind == ".obj" || kind == ".ply";
   return options;
 }
 
@@ -249,9 +249,9 @@ class Exporter {
     TexturedFiles written =
         add_textured_mesh(session_.files, arguments_.output, mapped, look, options_);
     session_.warn(written.warnings);
-    record_.textures.resize(1);  // the others are in no file
+    record_.textures = std::move(written.textures);  // the others are in no file
     record_.charts.push_back(std::move(written.chart));
-    note(written.files, look.images.front().bytes.size());
+    note(written.files, written.image_bytes);
   }
 
   void tell(const ChartFigures& chart, std::size_t vertices) {

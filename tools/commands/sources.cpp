@@ -10,6 +10,7 @@
 #include "reports/told_losses.h"
 #include "reports/told_repairs.h"
 #include "sphparam/io/creases.h"
+#include "sphparam/io/normal_maps.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/planetocentric.h"
 #include "sphparam/io/sphere_file.h"
@@ -149,6 +150,12 @@ void tell_longitudes(const MappedMesh& mapped, Convention convention, bool named
   const Vector3 centre = body_centre(planetocentric(mapped.provenance()), given_centre);
   const std::string off = longitudes_off(mapped, centre, !named_as_body, session.threads());
   if (!off.empty()) session.console.say("  " + off);
+}
+
+void turn_normals(MeshFile& file, const std::string& path, bool down, Session& session) {
+  if (down && turn_normal_maps_over(file) == 0)
+    session.console.warning(display_name(path) +
+                            ": has no normal map: --source-normal-y says nothing of it");
 }
 
 void crease(MeshFile& file, const std::string& path, double degrees, Session& session) {

@@ -57,6 +57,9 @@ void tell_longitudes(const MappedMesh& mapped, Convention convention, bool named
 /// it, unless below 0: nothing is wanted then. That a mesh has normals of its own is told.
 void crease(MeshFile& file, const std::string& path, double degrees, Session& session);
 
+/// What --source-normal-y says of them. Warns where there is none.
+void turn_normals(MeshFile& file, const std::string& path, bool down, Session& session);
+
 /// `shown_textures` with --texture IMAGE, if it is not empty; what stands against those of the file
 /// is told. `path`: of the mesh. Throws: UsageMistake where there is no place for the image.
 std::shared_ptr<const MeshTextures> read_shown_textures(const MeshFile& file,

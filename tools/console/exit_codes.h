@@ -14,7 +14,7 @@ enum ExitCode : int {
   FileError = 3,      // a file cannot be read, parsed or written
   MeshUnusable = 4,   // the mesh is not a closed genus-0 manifold, or cannot be measured
   NotCertified = 5,   // the map is not one-to-one
-  LimitExceeded = 6,  // a measured limit was exceeded
+  LimitExceeded = 6,  // a measured limit was exceeded, or with --fail-on-warnings something told
   Interrupted = 130,  // SIGINT or SIGTERM
 };
 
@@ -40,7 +40,9 @@ inline constexpr ExitMeaning exit_meanings[] = {
     {NotCertified,
      "the map is not one-to-one, or a pin, pole or meridian is not at its place; no map written "
      "but with --keep-folded"},
-    {LimitExceeded, "what was measured exceeds the limit; all outputs are written"},
+    {LimitExceeded,
+     "what was measured exceeds the limit; with --fail-on-warnings: something was warned of or "
+     "lost; all outputs are written"},
     {Interrupted, "interrupted"},
 };
 

@@ -33,8 +33,9 @@ namespace {
 std::string footer() {
   std::string text =
       "Files: `-` is standard input or output. Messages go to standard error.\n"
-      "-q, -v, --progress, --threads, --max-memory and --limit may stand before the subcommand "
-      "too.\n"
+      "-q, -v, --fail-on-warnings, --progress, --threads, --max-memory and --limit may stand "
+      "before the "
+      "subcommand too.\n"
       "\n"
       "Exit codes:\n";
   for (const ExitMeaning& exit : exit_meanings) {

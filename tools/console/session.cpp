@@ -1,6 +1,8 @@
 #include "console/session.h"
 
+#include "console/exit_codes.h"
 #include "most_threads.h"
+#include "number_text.h"
 
 namespace sphparam::cli {
 
@@ -14,9 +16,20 @@ Verbosity verbosity(const CommonArguments& arguments) {
 
 }  // namespace
 
+int strict_code(const CommonArguments& arguments, int code) {
+  if (!arguments.strict || code != Ok || arguments.complaints == 0) return code;
+  print_error("--fail-on-warnings: " + counted(static_cast<long>(arguments.complaints), "warning") +
+              " of what is odd or lost; all outputs are written");
+  return LimitExceeded;
+}
+
 Session::Session(const CommonArguments& arguments)
     : console(verbosity(arguments), arguments.progress), arguments_(arguments) {
   keep_to_threads(arguments.threads);
+}
+
+Session::~Session() {
+  arguments_.complaints += console.told().warnings.size() + console.told().losses.size();
 }
 
 Progress Session::progress() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
@@ -19,13 +20,23 @@ struct CommonArguments {
   int threads = 0;   // 0: all cores
   ProgressStyle progress = ProgressStyle::Auto;
   bool quiet = false, verbose = false;
+  bool strict = false;  // what is warned of, or lost, is a failure
+  /// Warnings and losses that sessions of these arguments have told, once they are over.
+  mutable std::size_t complaints = 0;
 };
+
+/// The exit code of a run that ended with `code`: LimitExceeded, which is told, where it is Ok, and
+/// what is told is to be a failure.
+int strict_code(const CommonArguments& arguments, int code);
 
 /// One run of a subcommand: what it tells, how far it is, and its outputs, which appear all or
 /// none.
 class Session {
  public:
   explicit Session(const CommonArguments& arguments);
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
 
   Console console;
   const Stopwatch stopwatch;

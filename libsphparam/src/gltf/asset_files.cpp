@@ -14,6 +14,7 @@
 #include "gltf/fillers_left_out.h"
 #include "gltf/images/image_kind.h"
 #include "gltf/level.h"
+#include "gltf/library_maps.h"
 #include "gltf/set_apart.h"
 #include "gltf/side_files.h"
 #include "gltf/stored_chart.h"
@@ -72,20 +73,21 @@ const AssetImage& shown_image(const Look& look) {
   return look.images.front();
 }
 
-/// What a look has besides the image of its colours: texts have no words for it.
-std::vector<std::string> beyond_texts(const Look& look) {
+/// What a look has besides the image of its colours that a .ply, or .mtl, has no words for.
+std::vector<std::string> beyond_texts(const Look& look, bool obj) {
   const Material& seen = look.materials.front();
   std::vector<std::string> words;
-  for (std::size_t i = 1; i < look.images.size(); ++i)
+  if (obj) words = beyond_library(look);
+  for (std::size_t i = 1; i < look.images.size() && !obj; ++i)
     words.push_back("the image " + look.images[i].name);
   if (seen.alpha_mode != AlphaMode::Opaque) words.emplace_back("how alpha is meant");
   std::ranges::copy(extensions_of(seen.finish), std::back_inserter(words));
   return words;
 }
 
-std::vector<std::string> warnings_of(const Look& look) {
+std::vector<std::string> warnings_of(const Look& look, bool obj) {
   std::vector<std::string> warnings = look.warnings;
-  const std::vector<std::string> words = beyond_texts(look);
+  const std::vector<std::string> words = beyond_texts(look, obj);
   if (!words.empty()) add_loss(warnings, enumerated(words) + ": .glb and .gltf have room for that");
   return warnings;
 }
@@ -157,14 +159,25 @@ void tell_numbers_lost(const MeshFile& source, const MeshFile& textured, bool ob
       add_loss(warnings, words_of_lost_labels(names));
 }
 
-/// The mesh in a file that names the image, as .obj with a library beside it.
+/// What a library says after its image of the base colour.
+std::string more_lines(const std::string& path, const Look& look,
+                       const std::vector<MapStatement>& more) {
+  std::string lines = library_numbers(look.materials.front());
+  for (const MapStatement& map : more)
+    lines += std::string(map.keyword) + " " +
+             fs::path(image_file(path, map.image)).filename().string() + "\n";
+  return lines;
+}
+
+/// The mesh in a file that names the image, as .obj with a library beside it, which says more.
 void add_mesh_beside_image(Adder& adder, const std::string& path, MeshFile textured,
-                           const std::string& image_path, const BytesCheck& check) {
+                           const std::string& image_path, const std::string& more,
+                           const BytesCheck& check) {
   const std::string image_name = fs::path(image_path).filename().string();
   if (is_obj(path)) {
     const std::string library = fs::path(library_of(path)).filename().string();
     adder.add(path, obj_with_library(textured, library), check);
-    adder.add(library_of(path), material_library(image_name));
+    adder.add(library_of(path), material_library(image_name) + more);
   } else {
     textured.comments.push_back("TextureFile " + image_name);
     adder.add(path, serialise_ply(textured), check);
@@ -233,6 +246,9 @@ std::vector<std::string> textured_files(const std::string& path, const Look& loo
   std::vector<std::string> names = {path};
   if (is_obj(path)) names.push_back(library_of(path));
   names.push_back(image_file(path, shown_image(look)));
+  if (is_obj(path))
+    for (const MapStatement& more : map_statements(look))
+      names.push_back(image_file(path, more.image));
   return names;
 }
 
@@ -254,14 +270,26 @@ TexturedFiles add_textured_mesh(PendingFiles& files, const std::string& path,
   MeshFile textured = without_fillers(
       textured_mesh(chart, mapped.file(), options.shape, options.up, options.threads));
   require_numbers(textured, path);
-  TexturedFiles result{.chart = figures_of(chart), .warnings = warnings_of(look), .files = {}};
+  TexturedFiles result{
+      .chart = figures_of(chart), .warnings = warnings_of(look, is_obj(path)), .files = {}};
   const BytesCheck check = [&](std::string_view on_disk) {
     result.chart.stored = certify_written(on_disk, path, chart, fillers, options.threads);
   };
   tell_numbers_lost(mapped.file(), textured, is_obj(path), result.warnings);
   Adder adder(files, path);
-  add_mesh_beside_image(adder, path, std::move(textured), image_file(path, image), check);
+  std::vector<MapStatement> more;
+  if (is_obj(path)) more = map_statements(look);
+  add_mesh_beside_image(adder, path, std::move(textured), image_file(path, image),
+                        more_lines(path, look, more), check);
   adder.add(image_file(path, image), image.bytes);
+  result.image_bytes = image.bytes.size();
+  if (!look.textures.empty()) result.textures.push_back(look.textures.front());
+  for (MapStatement& map : more) {
+    result.image_bytes += map.image.bytes.size();
+    result.textures.push_back(map.figures);
+    const std::string map_path = image_file(path, map.image);
+    adder.add(map_path, std::move(map.image.bytes));
+  }
   result.files = adder.take();
   warn_of_moves(source_name(mapped, options), chart, result.warnings);
   warn_of_folds(source_name(mapped, options), result.chart, options.keep_topology, result.warnings);
@@ -272,6 +300,7 @@ TexturedFiles write_textured_mesh(const std::string& path, const MappedMesh& map
                                   const ExportOptions& options) {
   ExportOptions baking = options;
   baking.look.bake_colours = true;  // beside an image they are not seen there
+  baking.look.for_text = true;
   PendingFiles files;
   TexturedFiles written =
       add_textured_mesh(files, path, mapped, make_look(mapped, baking), options);

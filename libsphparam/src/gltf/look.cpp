@@ -210,7 +210,11 @@ class LookMaker {
   void add_normals(const std::string& path) {
     if (path.empty()) return;
     GivenImage given = read(path, "normal");
-    require_tangent_normals(path, given);
+    const std::string complaint = complaint_of_normals(path, given);
+    if (!complaint.empty()) {
+      if (!wanted_.for_text || !wanted_.normal.empty()) throw LookError(complaint);
+      return add_loss(look_.warnings, complaint);
+    }
     std::string warning =
         warning_of_other_mesh(path, given.texts, {source_name(mapped_, options_), mapped_.name()});
     if (!warning.empty()) look_.warnings.push_back(std::move(warning));

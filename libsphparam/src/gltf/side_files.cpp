@@ -36,8 +36,7 @@ struct OwnFile {
 std::array<OwnFile, 3> own_files() {
   return {{{".gltf", "\"generator\": \"sphparam ",
             [](const std::string& name) { return "\"" + uri_of_file(name) + "\""; }},
-           {".mtl", own_library_head(),
-            [](const std::string& name) { return own_library_head() + name + "\n"; }},
+           {".mtl", own_library_head(), [](const std::string& name) { return " " + name + "\n"; }},
            {".ply", "\ncomment sphparam material sphparam\n",
             [](const std::string& name) { return "\ncomment TextureFile " + name + "\n"; }}}};
 }

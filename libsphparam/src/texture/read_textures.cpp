@@ -209,6 +209,7 @@ SourceTexture TextureReader::read(const MaterialTexture& said, const std::string
   if (!decoded.image) decoded = decode(file_, said, what, kind_, threads_);
   texture.image = decoded.image;
   texture.warning = decoded.warning;
+  if (decoded.heights) texture.factor[1] = 1;  // whatever was said of the green of normals
   if (said.bump != 0 && !decoded.heights) texture.factor[0] = static_cast<float>(said.bump);
   return texture;
 }

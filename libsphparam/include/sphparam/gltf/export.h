@@ -47,7 +47,10 @@ struct LookOptions {
   int image_width = 2048;     // of images that are made here; 16 to 16384, a multiple of 4
   bool unlit = false;         // the colours as they are, without light: no normal map, no occlusion
   bool bake_colours = false;  // of vertices, so that they tint no other material
-  bool tangents = false;      // also without a normal map: a flat one is bound
+  /// For an .obj or .ply: a normal map of the folder that is none of .mtl and glTF is left out and
+  /// told, not refused.
+  bool for_text = false;
+  bool tangents = false;                          // also without a normal map: a flat one is bound
   TextureFormat textures = TextureFormat::Given;  // what all images are made at the end
   int webp_quality = 90;  // of TextureFormat::Webp, 1 to 100: of colours, alpha is kept
 };
@@ -185,15 +188,18 @@ void write_asset(const std::string& path, const Asset& asset, const GltfOptions&
 
 // The same for programs that read texts: numbers are doubles, properties of vertices and faces come
 // along, axes stay as they are, and comments say which were asked for. One material with the first
-// image of the look; what else the look has is among the warnings.
+// image of the look, of an .obj also with its normals, roughness, metallic and emission; what else
+// the look has is among the warnings.
 
 struct TexturedFiles {
   ChartFigures chart;                 // `stored`: of the texture coordinates read back
   std::vector<std::string> warnings;  // for people
   WrittenFiles files;
+  std::vector<TextureFigures> textures = {};  // of the images in them, where the look has figures
+  std::size_t image_bytes = 0;                // of these, all together
 };
 
-/// Of an .obj its .mtl and an image, of a .ply an image that a comment names.
+/// Of an .obj its .mtl and the images that it names, of a .ply an image that a comment names.
 std::vector<std::string> textured_files(const std::string& path, const Look& look);
 
 /// For programs that want to know before work. Throws: WriteError where the .mtl of an .obj of this

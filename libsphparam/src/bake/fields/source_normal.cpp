@@ -69,6 +69,7 @@ void take_own_tangents(const MeshFile& file, SourceTangents& frame) {
 struct SourceNormal::Maps {
   std::vector<SourceTexture> textures;  // a material
   std::vector<double> scales;
+  std::vector<double> signs;     // of y: −1 where green points down the image
   std::vector<int> material_of;  // a face
   SourceCoordinates::Coordinates corners, second_corners;
   SourceTangents frame;
@@ -91,6 +92,7 @@ SourceNormal::SourceNormal(const BakeScene& scene) : scene_(&scene) {
       TextureReader(file, TexelKind::Number, scene.threads).read(&MaterialChannels::normal);
   for (SourceTexture& texture : maps->textures) {
     maps->scales.push_back(static_cast<double>(texture.factor[0]));
+    maps->signs.push_back(texture.factor[1] < 0 ? -1 : 1);
     texture.factor = {1, 1, 1, 1};
   }
   maps->material_of.assign(material->values.begin(), material->values.end());
@@ -122,7 +124,8 @@ Vector3 SourceNormal::mapped(const SurfaceSample& sample) const {
   if (tangent.isZero(0)) return normal_at(scene_->source, f, weights);
   const double scale = maps_->scales[static_cast<size_t>(material)];
   const double x = scale * (2 * static_cast<double>(texel[0]) - 1),
-               y = scale * (2 * static_cast<double>(texel[1]) - 1),
+               y = maps_->signs[static_cast<size_t>(material)] * scale *
+                   (2 * static_cast<double>(texel[1]) - 1),
                z = 2 * static_cast<double>(texel[2]) - 1;
   const Vector3 turned =
       x * tangent + y * maps_->frame.tangents(3 * f, 3) * normal.cross(tangent) + z * normal;

@@ -10,21 +10,22 @@
 
 namespace sphparam {
 
-void require_tangent_normals(const std::string& path, const GivenImage& image) {
+std::string complaint_of_normals(const std::string& path, const GivenImage& image) {
   constexpr std::string_view wanted = "normal-tangent", down = "+Y down";
   const std::string name = display_name(path);
   const std::string_view field = baked_text(image.texts, "sphparam:map");
   if (!field.empty() && field != wanted)
-    throw LookError(name + " shows " + std::string(field) + ", and a normal map is of " +
-                    std::string(wanted) + ": `sphparam bake --map normal-tangent` makes it");
+    return name + " shows " + std::string(field) + ", and a normal map is of " +
+           std::string(wanted) + ": `sphparam bake --map normal-tangent` makes it";
   if (baked_text(image.texts, "sphparam:about").find(down) != std::string_view::npos)
-    throw LookError(name +
-                    " is baked with +Y down (DirectX), and glTF has +Y up: `sphparam bake "
-                    "--normal-y gl` makes it so");
+    return name +
+           " is baked with +Y down (DirectX), and glTF has +Y up: `sphparam bake "
+           "--normal-y gl` makes it so";
   constexpr int axes = 3;
   if (image.pixels.channels < axes)
-    throw LookError(name + " has " + counted(image.pixels.channels, "channel") +
-                    ", and a normal map has x, y and z, in red, green and blue");
+    return name + " has " + counted(image.pixels.channels, "channel") +
+           ", and a normal map has x, y and z, in red, green and blue";
+  return {};
 }
 
 std::string warning_of_other_mesh(const std::string& path, const ImageTexts& texts,

@@ -8,9 +8,9 @@
 
 namespace sphparam {
 
-/// Refuses what is no normal map of glTF: an image of fewer than three channels, and what says of
-/// itself that it shows other things or has y down. Throws: LookError.
-void require_tangent_normals(const std::string& path, const GivenImage& image);
+/// Why it is no normal map of glTF: an image of fewer than three channels, or one that says of
+/// itself that it shows other things or has y down. Empty: it is one.
+std::string complaint_of_normals(const std::string& path, const GivenImage& image);
 
 /// The warning that normals are in the frame of another mesh than any of these names, by the names
 /// that `bake` notes; empty: they are not, or it is not known.
