@@ -10,6 +10,7 @@
 #include "io/attributes/corner_colours.h"
 #include "scenes.h"
 #include "sphparam/chart/tangent_frame.h"
+#include "sphparam/io/normal_maps.h"
 #include "srgb_curves.h"
 #include "support/cube.h"
 #include "support/test_meshes.h"
@@ -227,6 +228,36 @@ TEST_CASE("material fields: a normal map is turned from the source's own frame, 
     INFO("side " << side);
     CHECK((as_vector(inside(object, f)) - expected).norm() < 1e-6);
   }
+}
+
+TEST_CASE("material fields: normal maps whose green points down are turned over, heights are not") {
+  Cube cube;
+  cube.file.channels[0].normal = texel("n", {200 / 255.F, 90 / 255.F, 220 / 255.F});
+  CHECK(turn_normal_maps_over(cube.file) == 1);
+  const Vector3 expected =
+      ((2 * 200 / 255.0 - 1) * cube.along_s[0] - (2 * 90 / 255.0 - 1) * cube.along_t[0] +
+       (2 * 220 / 255.0 - 1) * cube.normals[0])
+          .normalized();
+  const auto scene = cube.scene();
+  CHECK((as_vector(inside(make_object_normal(*scene, ""), 0)) - expected).norm() < 1e-6);
+  Image heights(8, 8, 3);
+  for (int y = 0; y < 8; ++y)
+    for (int x = 0; x < 8; ++x)
+      for (int c = 0; c < 3; ++c) heights.pixel(x, y)[c] = static_cast<float>(8 * (7 - y)) / 255;
+  const std::vector<char> png = encode_image(heights, ImageFormat::Png);
+  MaterialTexture& bump = cube.file.channels[0].normal;
+  bump = {.image = "heights", .bytes = std::make_shared<const std::vector<char>>(png)};
+  bump.placement = {{{0.01, 0, 0.45}, {0, 0.01, 0.45}}};
+  bump.bump = 255.0 / 16 / 2;
+  const auto seen = [&] {
+    const auto bumped = cube.scene();
+    return inside(make_object_normal(*bumped, ""), 0);
+  };
+  const std::vector<float> before = seen();
+  CHECK(turn_normal_maps_over(cube.file) == 1);
+  CHECK(seen() == before);
+  cube.file.channels[0].normal = {};
+  CHECK(turn_normal_maps_over(cube.file) == 0);
 }
 
 TEST_CASE("material fields: what a viewer makes of normal-tangent is the turned normal") {
