@@ -51,6 +51,17 @@ TriangleMesh t_junction(double away) {
 
 }  // namespace
 
+TEST_CASE("cracks: what rounding alone tears apart becomes one unasked, with copies in its place") {
+  const RepairedMesh repaired = repair_mesh(cracked_ball(0x1p-52));
+  CHECK(repaired.inspection.is_sphere());
+  CHECK(repaired.mesh.vertex_count() == icosphere(3).vertex_count());
+  CHECK(repaired.mesh.face_count() == icosphere(3).face_count());
+  CHECK(count(repaired, RepairKind::VertexWelded) > 0);
+  CHECK(count(repaired, RepairKind::HoleFilled) == 0);
+  for (const double gap : {0.0, 0x1p-40})
+    CHECK(count(repair_mesh(cracked_ball(gap)), RepairKind::VertexWelded) == 0);
+}
+
 TEST_CASE("cracks: a T-junction is closed by splitting the long edge, nothing moves") {
   const TriangleMesh mesh = t_junction(0);
   const RepairedMesh repaired = repair_mesh(mesh);

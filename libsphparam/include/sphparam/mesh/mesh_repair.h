@@ -30,7 +30,7 @@ enum class HandleChoice {
 struct RepairOptions {
   bool non_finite = true;  // drop vertices whose coordinates are no finite numbers, and their faces
   bool duplicates = true;  // remove faces that name a vertex twice, and copies of faces
-  bool cracks = true;      // split boundary edges at the boundary vertices that lie on them
+  bool cracks = true;      // join boundary vertices that rounding tears, split edges where some lie
   bool orientation = true;   // orient faces alike, by majority; the closed surface outward
   bool non_manifold = true;  // give each sheet its own copy of the edges and vertices it shares
   bool components = true;    // keep one component, where that loses no more than specks

@@ -17,9 +17,13 @@
 // both, and is more than a needle that rounding made, as at the pole of a grid; as those that stay
 // are apart by more than the tolerance, nothing creeps. Then an edge with
 // one face is split at the boundary vertices that lie within the tolerance of its interior
-// (T-junctions); without a tolerance at those that lie on it but for rounding. What stays is found
-// by a grid of cells of twice the tolerance, of which each has few; what lies along an edge by a
-// tree of boxes, whatever the lengths of edges are, and however many vertices lie in one place.
+// (T-junctions); without a tolerance at those that lie on it but for rounding. Without one
+// vertices become one too where rounding alone keeps some of them apart, as on the seam and at the
+// poles of a grid that was computed, and the surface is closed then; whether exact copies alone do
+// is the reader's to say. What
+// stays is found by a grid of cells of twice the tolerance, of which each has few; what lies along
+// an edge by a tree of boxes, whatever the lengths of edges are, and however many vertices lie in
+// one place.
 
 namespace sphparam {
 namespace {
@@ -183,6 +187,23 @@ class CrackCloser {
   CrackCloser(RepairState& state, double tolerance)
       : state_(state), sides_(boundary_sides(state)), tolerance_(tolerance) {}
 
+  /// Whether some vertices are not in one place, but as near as rounding has it.
+  bool is_torn_by_rounding() const {
+    Grid places(2 * rounding);
+    for (const Vertex v : vertices_of(sides_)) {
+      bool is_there = false, is_near = false;
+      places.around(state_.shape[v], [&](Vertex other) {
+        const double distance = (state_.shape[v] - state_.shape[other]).norm();
+        (distance > 0 ? is_near : is_there) |= distance <= rounding;
+      });
+      if (is_near) return true;
+      if (!is_there) places.add(v, state_.shape[v]);
+    }
+    return false;
+  }
+
+  bool is_closed() const { return sides_.empty(); }
+
   void weld() {
     if (sides_.empty()) return;
     find_faces_of_boundary();
@@ -334,6 +355,15 @@ class CrackCloser {
   std::map<Vertex, std::vector<Face>> faces_of_;
 };
 
+/// Where that closes the surface; else nothing is done.
+void weld_what_rounding_tears(RepairState& state) {
+  if (!CrackCloser(state, rounding).is_torn_by_rounding()) return;
+  RepairState welded = state;
+  CrackCloser closer(welded, rounding);
+  closer.weld();
+  if (closer.is_closed()) state = std::move(welded);
+}
+
 }  // namespace
 
 void close_cracks(RepairState& state, const RepairOptions& options) {
@@ -341,6 +371,7 @@ void close_cracks(RepairState& state, const RepairOptions& options) {
   const double tolerance = options.weld_length >= 0 ? options.weld_length / state.scale
                            : welds                  ? options.weld_share * state.diagonal()
                                                     : 0;
+  if (!welds) weld_what_rounding_tears(state);
   CrackCloser closer(state, tolerance);
   if (welds) closer.weld();
   closer.split_at_vertices();
