@@ -42,15 +42,17 @@ Eigen::Vector3d cube_point(int face, int i, int j, int q) {
 }
 
 /// A body of an odd shape, so that no two places of it are the same; `mirrored`: its mirror image,
-/// of which all faces look inwards.
-std::string icq(int q, const std::string& end = "", bool mirrored = false) {
+/// of which all faces look inwards. `by_columns`: what runs first runs last.
+std::string icq(int q, const std::string& end = "", bool mirrored = false,
+                bool by_columns = false) {
   std::ostringstream text;
   text.precision(17);
   text << "          " << q << "\n";
   for (int face = 1; face <= 6; ++face) {
     for (int j = 0; j <= q; ++j) {
       for (int i = 0; i <= q; ++i) {
-        const Eigen::Vector3d d = cube_point(face, i, j, q).normalized();
+        const Eigen::Vector3d d =
+            (by_columns ? cube_point(face, j, i, q) : cube_point(face, i, j, q)).normalized();
         const Eigen::Vector3d p = (1 + 0.2 * d.x() + 0.1 * d.x() * d.y()) * d;
         text << p.x() << ' ' << (mirrored ? -p.y() : p.y()) << ' ' << p.z() << end << "\n";
       }
@@ -98,6 +100,28 @@ TEST_CASE("plate tables: the same mesh, whichever way counts and numbers stand")
       CHECK(file.notes.empty());
     }
   }
+}
+
+TEST_CASE("plate tables: an albedo after three numbers is a property of vertices, of plates") {
+  const std::string shaded_vertices = "1.0 1 1 .1\n-1. -1 1 .2\n-1.0 1 -1 3D-1\n1.0 -1 -1 .4\n";
+  const std::string shaded_plates = "1 3 2 0.5\n1 2 4 0.6\n1 4 3 0.7\n2 3 4 0.8\n";
+  const MeshFile expected = read("4 4\n" + vertices + plates, "a.plt");
+  const MeshFile of_vertices = read("4 4\n" + shaded_vertices + plates, "a.plt");
+  CHECK(of_vertices.mesh.positions == expected.mesh.positions);
+  REQUIRE(of_vertices.find_vertex_property("albedo"));
+  CHECK(of_vertices.find_vertex_property("albedo")->values ==
+        std::vector<double>{0.1, 0.2, 0.3, 0.4});
+  const MeshFile of_plates = read("4\n" + vertices + "4\n" + shaded_plates, "a.plt");
+  CHECK(of_plates.mesh.triangles == expected.mesh.triangles);
+  REQUIRE(of_plates.find_face_property("albedo"));
+  CHECK(of_plates.find_face_property("albedo")->values == std::vector<double>{0.5, 0.6, 0.7, 0.8});
+  CHECK(complaint("4 4\n" + vertices + replaced(shaded_plates, " 0.7", ""), "a.plt") ==
+        "a.plt:8: expected a number, found the end of the line");
+}
+
+TEST_CASE("v/f tables: exponents may be of Fortran") {
+  const MeshFile file = read(replaced(tetrahedron_obj, "v 1", "v 0.1D+01"), "a.obj");
+  CHECK(file.mesh.positions == read(tetrahedron_obj).mesh.positions);
 }
 
 TEST_CASE("plate tables: vertices counted from 0 are told") {
@@ -210,6 +234,15 @@ TEST_CASE("ICQ: where rows and columns run the other way, faces are turned, and 
                           "turned, to look outwards"});
   CHECK(inspect_mesh(file.mesh).is_sphere());
   CHECK(volume(file.mesh) == Approx(volume(read(icq(3), "shape.txt").mesh)).epsilon(1e-3));
+}
+
+TEST_CASE("ICQ: of grids that stand column after column no point is left apart") {
+  const MeshFile file = read(icq(3, "", false, true), "shape.txt"), usual = read(icq(3), "a.icq");
+  CHECK(file.mesh.vertex_count() == usual.mesh.vertex_count());
+  CHECK(file.notes == std::vector<std::string>{
+                          "rows and columns run the other way than those of other ICQ: faces were "
+                          "turned, to look outwards"});
+  CHECK(volume(file.mesh) == Approx(volume(usual.mesh)).epsilon(1e-3));
 }
 
 TEST_CASE("ICQ: the vertices are the vectors of the file that source_vertex names") {

@@ -14,6 +14,7 @@
 #include "io/files/text_scanner.h"
 #include "io/formats/obj/obj_materials.h"
 #include "io/formats/obj/obj_other_statements.h"
+#include "io/formats/shapes/shape_tables.h"
 #include "number_text.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/polygons.h"
@@ -123,7 +124,13 @@ class ObjReader {
   }
 
   void read_vertex() {
-    for (int i = 0; i < 3; ++i) positions_.push_back(scanner_.coordinate());
+    if (positions_.empty()) is_of_fortran_ = has_fortran_exponent(scanner_.peek_rest());
+    if (is_of_fortran_) {
+      for (const double coordinate : table_vector(scanner_, options_.non_finite))
+        positions_.push_back(coordinate);
+    } else {
+      for (int i = 0; i < 3; ++i) positions_.push_back(scanner_.coordinate());
+    }
     if (++vertices_.count > std::min(options_.max_vertices, most_vertices))
       scanner_.fail("more vertices than the limit of " + std::to_string(options_.max_vertices));
     if (!scanner_.at_line_end()) read_vertex_extras();
@@ -422,7 +429,8 @@ class ObjReader {
   TextScanner scanner_;
   const std::optional<std::filesystem::path>& folder_;  // of libraries
   const ReadOptions& options_;
-  bool in_header_ = true;  // only comments so far
+  bool is_of_fortran_ = false;  // exponents are, as of tables of bodies
+  bool in_header_ = true;       // only comments so far
   long later_comments_ = 0;
   std::optional<bool> null_is_none_;  // of "(null)", once it was met
 

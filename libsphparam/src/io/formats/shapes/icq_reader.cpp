@@ -54,6 +54,7 @@ class IcqReader {
     file_.format = "ICQ";
     read_size();
     read_points();
+    place_points();
     if (scanner_.next_filled_line()) file_.notes.push_back("data after the last vector ignored");
     add_vertices();
     add_quads();
@@ -96,20 +97,40 @@ class IcqReader {
       points_.row(point) = table_vector(scanner_, options_.non_finite);
       if (has_albedo) albedo_.push_back(table_number(scanner_));
       expect_table_line_end(scanner_);
-      add_point(point);
+      lines_.push_back(scanner_.line_number());
     }
+  }
+
+  /// By rows and columns, or by columns and rows where fewer points are left apart then.
+  void place_points() {
+    add_points(false);
+    const long apart = apart_;
+    if (apart == 0) return;
+    add_points(true);
+    if (apart_ >= apart) add_points(false);
+  }
+
+  void add_points(bool by_columns) {
+    places_ = DistinctRows<double, 3>(0);
+    vertex_of_.clear();
+    first_point_.clear();
+    apart_ = first_apart_line_ = other_albedos_ = 0;
+    largest_gap_ = 0;
+    for (std::int64_t point = 0; point < count_; ++point) add_point(point, by_columns);
   }
 
   /// The vertex of a point: that of its place on the cube, or, where another point was there
   /// before it and is elsewhere, one of its own, beside the cube.
-  void add_point(std::int64_t point) {
+  void add_point(std::int64_t point, bool by_columns) {
     const int face = static_cast<int>(point / (side_ * side_));
     const int in_face = static_cast<int>(point % (side_ * side_));
-    CubePoint place = on_cube(face, in_face % side_, in_face / side_, q_);
+    int i = in_face % side_, j = in_face / side_;
+    if (by_columns) std::swap(i, j);
+    CubePoint place = on_cube(face, i, j, q_);
     int vertex = add_place(place, point);
     const bool repeats = first_point_[vertex] != point;
     if (repeats && points_.row(point) != points_.row(first_point_[vertex])) {
-      if (apart_++ == 0) first_apart_line_ = scanner_.line_number();
+      if (apart_++ == 0) first_apart_line_ = lines_[point];
       const double gap = (points_.row(point) - points_.row(first_point_[vertex])).norm();
       largest_gap_ = std::max(largest_gap_, gap);
       place[0] += 2.0 * side_ * (face + 1);
@@ -194,6 +215,7 @@ class IcqReader {
   std::int64_t count_ = 0;
   Points points_;  // of the file
   std::vector<double> albedo_;
+  std::vector<long> lines_;  // of each point
   DistinctRows<double, 3> places_{0};
   std::vector<int> vertex_of_;    // of each point
   std::vector<int> first_point_;  // of each vertex

@@ -17,7 +17,8 @@ bool looks_like_icq(std::string_view text);
 ///
 /// Points along the edges of the cube stand in the file two or three times. They become one vertex
 /// where their positions are the same; others are left apart, and noted. `source_vertex` is the
-/// vector of the file, from 0. Quads look outwards, and are cut as others are; where rows and
+/// vector of the file, from 0. Grids may stand column after column too, where more points are the
+/// same then. Quads look outwards, and are cut as others are; where rows and
 /// columns run the other way, so that all would look inwards, they are turned, and that is noted.
 /// Exponents may have Fortran's D; commas and labels as in plate tables. Throws: ReadError with the
 /// line.

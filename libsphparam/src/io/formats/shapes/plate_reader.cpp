@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "io/files/text_scanner.h"
 #include "io/formats/shapes/plain_table.h"
@@ -12,10 +14,12 @@
 namespace sphparam {
 namespace {
 
-/// The numbers at the beginning of rows, where the first row has one number more than three.
+/// What rows have besides three numbers, where the first row has one number more: at the beginning
+/// their own numbers, or an albedo at the end.
 class RowNumbers {
  public:
-  explicit RowNumbers(const char* thing) : thing_(thing) {}
+  /// `are_whole`: the three are.
+  RowNumbers(const char* thing, bool are_whole) : thing_(thing), are_whole_(are_whole) {}
 
   void read(TextScanner& scanner, std::int64_t row) {
     if (row == 0) look_at_first(scanner);
@@ -30,16 +34,28 @@ class RowNumbers {
                    ", found " + std::to_string(number) + " (of 4 numbers a line the first counts)");
   }
 
+  void read_albedo(TextScanner& scanner) {
+    if (has_albedo_) albedos_.push_back(table_number(scanner));
+  }
+
+  /// Of all rows; empty where they have none.
+  std::vector<double> take_albedos() { return std::move(albedos_); }
+
  private:
   void look_at_first(const TextScanner& scanner) {
     const int words = words_left(scanner);
     if (words > 4) scanner.fail(std::string(thing_) + " has more than 4 numbers");
-    there_ = words == 4;
+    const bool ends_otherwise = are_whole_ ? ends_with_real(scanner) : !begins_with_index(scanner);
+    there_ = words == 4 && !ends_otherwise;
+    has_albedo_ = words == 4 && ends_otherwise;
   }
 
   const char* thing_;
+  bool are_whole_;
+  bool has_albedo_ = false;
   bool there_ = false;
   long first_ = 1;
+  std::vector<double> albedos_;
 };
 
 class PlateReader {
@@ -89,13 +105,16 @@ class PlateReader {
 
   void read_vertices() {
     file_.mesh.positions.resize(vertices_, 3);
-    RowNumbers numbers("vertex");
+    RowNumbers numbers("vertex", false);
     for (std::int64_t v = 0; v < vertices_; ++v) {
       if (v > 0 || !at_first_vertex_) next_table_row(scanner_, "vertex", v, vertices_);
       numbers.read(scanner_, v);
       file_.mesh.positions.row(v) = table_vector(scanner_, options_.non_finite);
+      numbers.read_albedo(scanner_);
       expect_table_line_end(scanner_);
     }
+    if (auto albedos = numbers.take_albedos(); !albedos.empty())
+      file_.set_vertex_property({"albedo", ScalarType::Float64, std::move(albedos)});
   }
 
   void read_plates() {
@@ -105,14 +124,16 @@ class PlateReader {
     }
     polygons_.corners.reserve(static_cast<std::size_t>(3 * *plates_));
     polygons_.starts.reserve(static_cast<std::size_t>(*plates_ + 1));
-    RowNumbers numbers("plate");
+    RowNumbers numbers("plate", true);
     for (std::int64_t plate = 0; plate < *plates_; ++plate) {
       next_table_row(scanner_, "plate", plate, *plates_);
       if (plate == 0) degrees_before_ = words_left(scanner_) == 1;
       if (degrees_before_) read_degree(plate);
       numbers.read(scanner_, plate);
-      read_corners();
+      read_corners(numbers);
     }
+    if (auto albedos = numbers.take_albedos(); !albedos.empty())
+      file_.set_face_property({"albedo", ScalarType::Float64, std::move(albedos)});
   }
 
   /// The line before each plate that says how many corners it has.
@@ -122,7 +143,7 @@ class PlateReader {
     next_table_row(scanner_, "plate", plate, *plates_);
   }
 
-  void read_corners() {
+  void read_corners(RowNumbers& numbers) {
     for (int k = 0; k < 3; ++k) {
       const long v = scanner_.integer();
       if (v < 0 || v > vertices_)
@@ -132,6 +153,7 @@ class PlateReader {
       largest_ = std::max(largest_, v);
       polygons_.add_corner(static_cast<int>(v));
     }
+    numbers.read_albedo(scanner_);
     expect_table_line_end(scanner_);
     const std::string problem = polygons_.close_polygon(options_);
     if (!problem.empty()) scanner_.fail(problem);

@@ -14,7 +14,8 @@ bool looks_like_plates(std::string_view text);
 /// Reads a plate table (.plt, .tab, .ver), as the Small Bodies Node of the PDS, NAIF and others
 /// have shape models: lines "x y z" or "NUMBER x y z" of vertices, then "a b c" or "NUMBER a b c"
 /// of plates, before each of them a line "3" or not (OSIRIS's .ver). Both counts come first, on a
-/// line or on two, or each before its lines.
+/// line or on two, or each before its lines. One more number after three that have none before them
+/// becomes the property `albedo` of vertices or faces.
 ///
 /// Numbers run on from 1 or from 0. Plates name vertices from 1; from 0, which is noted, where one
 /// names 0 and the largest is the number of vertices less 1. Exponents may have Fortran's D.

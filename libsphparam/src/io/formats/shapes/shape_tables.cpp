@@ -92,7 +92,17 @@ bool is_vector(const Words& line) {
   return is_row(line) && line.all([](std::string_view word) { return real(word).has_value(); });
 }
 
-bool is_plate(const Words& line) { return is_row(line) && line.all(is_index); }
+/// After three corners of a plate, or their numbers, its number of another kind may follow.
+bool is_plate(const Words& line) {
+  return is_row(line) && std::all_of(line.words.begin(), line.words.begin() + 3, is_index) &&
+         (line.count == 3 || real(line.words[3]));
+}
+
+Words words_of(const TextScanner& scanner) {
+  std::string_view line = scanner.peek_rest();
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  return split(line);
+}
 
 /// Of a word with the exponent of Fortran; nothing, and nothing read, where it is none.
 std::optional<double> fortran_number(TextScanner& scanner, bool non_finite) {
@@ -123,19 +133,32 @@ ShapeTable shape_table(std::string_view text) {
   return is_vector(after_vertices) ? ShapeTable::Icq : ShapeTable::None;
 }
 
-int words_left(const TextScanner& scanner) {
-  std::string_view line = scanner.peek_rest();
-  if (line.ends_with('\r')) line.remove_suffix(1);
-  return static_cast<int>(split(line).count);
+int words_left(const TextScanner& scanner) { return static_cast<int>(words_of(scanner).count); }
+
+bool begins_with_index(const TextScanner& scanner) {
+  const Words words = words_of(scanner);
+  return words.count > 0 && is_index(words.words[0]);
+}
+
+bool ends_with_real(const TextScanner& scanner) {
+  const Words words = words_of(scanner);
+  return words.count > 0 && real(words.words[words.count - 1]) &&
+         !parsed<std::int64_t>(words.words[words.count - 1]);
 }
 
 bool three_numbers_left(const TextScanner& scanner) {
-  std::string_view line = scanner.peek_rest();
-  if (line.ends_with('\r')) line.remove_suffix(1);
-  const Words words = split(line);
+  const Words words = words_of(scanner);
   return words.count >= 3 &&
          std::all_of(words.words.begin(), words.words.begin() + 3,
                      [](std::string_view word) { return real(word).has_value(); });
+}
+
+bool has_fortran_exponent(std::string_view line) {
+  const Words words = split(line);
+  return std::any_of(words.words.begin(), words.words.begin() + words.count,
+                     [](std::string_view word) {
+                       return word.find_first_of("Dd") != std::string_view::npos && real(word);
+                     });
 }
 
 double table_number(TextScanner& scanner) {

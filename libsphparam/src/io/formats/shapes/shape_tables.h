@@ -19,11 +19,20 @@ enum class ShapeTable { None, Plates, Icq };
 /// counts and vectors first, as both have, and there whole numbers, or one more vector.
 ShapeTable shape_table(std::string_view text);
 
+/// Whether the next word is a whole number, at least 0.
+bool begins_with_index(const TextScanner& scanner);
+
+/// Whether the last word that is left on the line is no whole number.
+bool ends_with_real(const TextScanner& scanner);
+
 /// How many words are left on the line.
 int words_left(const TextScanner& scanner);
 
 /// Whether three numbers are next on the line, as in tables of longitudes, latitudes and radii.
 bool three_numbers_left(const TextScanner& scanner);
+
+/// Whether a line has a number with an exponent of Fortran's.
+bool has_fortran_exponent(std::string_view line);
 
 /// The next number, also with an exponent of Fortran's: 1.5D+01. Throws: ReadError, also for what
 /// is not finite.
