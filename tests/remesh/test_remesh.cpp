@@ -6,6 +6,7 @@
 #include "io/formats/ply/polygon_ply.h"
 #include "sphparam/io/fillers.h"
 #include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/planetocentric.h"
 #include "sphparam/io/sphere_file.h"
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/mesh/topology.h"
@@ -509,11 +510,17 @@ TEST_CASE("remesh: of a radial map, vertices are in their directions from its ce
     INFO(grid);
     const Remeshed made = remesh(body, grid_named(grid));
     CHECK(off(made) < 1e-12);
+    REQUIRE(planetocentric(made.provenance()));
+    CHECK(planetocentric(made.provenance())->centre == centre);
+    CHECK(planetocentric(made.provenance())->largest_movement == 0);
+    CHECK(made.provenance().back().first == "verdict");
     const auto& again = made.file().vertex_properties.at(0).values;
     for (Vertex v = 0; v < made.mesh().vertex_count(); ++v)
       CHECK(again[static_cast<size_t>(v)] == Approx(made.mesh().positions(v, 0)).margin(1e-12));
   }
   CHECK(remesh(body, like(mesh, body.map())).mesh().positions == mesh.positions);
+  const Remeshed means = remesh(body, grid_named("healpix:8"), {.sample = SampleMode::Cell});
+  CHECK_FALSE(planetocentric(means.provenance()));
   const MappedMesh unsaid = mapped(file, body.map());  // along the sphere's flat triangles
   CHECK(off(remesh(unsaid, grid_named("healpix:8"))) > 0.01);
 }

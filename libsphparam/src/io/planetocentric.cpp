@@ -3,6 +3,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -15,6 +16,7 @@
 namespace sphparam {
 namespace {
 
+constexpr double unknown = std::numeric_limits<double>::infinity();
 constexpr std::string_view centre_key = "radial-centre", movement_key = "radial-movement";
 
 /// Numbers with blanks between, all of the text and finite.
@@ -41,10 +43,15 @@ const std::string* value_of(const Provenance& provenance, std::string_view key) 
 
 Provenance planetocentric_lines(const Parameterization& result) {
   if (!result.radial) return {};
-  const Vector3& c = result.radial->centre;
+  return planetocentric_lines(
+      Planetocentric{result.radial->centre, result.radial->largest_movement});
+}
+
+Provenance planetocentric_lines(const Planetocentric& radial) {
+  const Vector3& c = radial.centre;
   return {
       {std::string(centre_key), shortest(c.x()) + " " + shortest(c.y()) + " " + shortest(c.z())},
-      {std::string(movement_key), shortest(result.radial->largest_movement)}};
+      {std::string(movement_key), shortest(radial.largest_movement)}};
 }
 
 bool is_planetocentric(const std::string& key) { return key == centre_key || key == movement_key; }
@@ -102,21 +109,25 @@ SphereMap body_directions(const MeshFile& file, const Vector3& centre) {
   return radial_directions(body.mesh, body.centre);
 }
 
-bool is_as_said(const Planetocentric& radial, const MeshFile& file, const SphereMap& map) try {
-  constexpr double rounding = 1e-5;  // of positions in float32 near the centre
-  if (radial.made_anew) return false;
-  const SphereMap directions = body_directions(file, radial.centre);
+double largest_movement(const Vector3& centre, const MeshFile& file, const SphereMap& map) try {
+  const SphereMap directions = body_directions(file, centre);
   const Triangles surface = surface_of(file.mesh, fillers_of(file)).triangles;
+  double largest = 0;
   for (Face f = 0; f < surface.rows(); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      const Vertex v = surface(f, k);
+    for (const Vertex v : surface.row(f)) {
       const double off = angle_between(map.point(v), directions.point(v));
-      if (!(off <= radial.largest_movement + rounding)) return false;
+      if (!(off <= largest)) largest = std::isnan(off) ? unknown : off;
     }
   }
-  return true;
+  return largest;
 } catch (const VertexAtCentre&) {
-  return false;
+  return unknown;
+}
+
+bool is_as_said(const Planetocentric& radial, const MeshFile& file, const SphereMap& map) {
+  constexpr double rounding = 1e-5;  // of positions in float32 near the centre
+  return !radial.made_anew &&
+         largest_movement(radial.centre, file, map) <= radial.largest_movement + rounding;
 }
 
 }  // namespace sphparam

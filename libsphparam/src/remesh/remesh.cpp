@@ -376,6 +376,18 @@ Provenance provenance_of(const MappedMesh& source, const std::string& grid, Samp
   return lines;
 }
 
+/// Of a radial map: vertices are where rays of the grid meet the mesh, so that the
+/// grid is a radial map of them, but for what the map moved.
+Provenance radial_lines(const MappedMesh& source, const MeshFile& file, const SphereMap& grid) {
+  constexpr double rounding = 1e-9;  // of positions whose centre is far from the origin
+  auto radial = planetocentric(source.provenance());
+  if (!radial || !is_as_said(*radial, source.file(), source.map())) return {};
+  const double said = radial->largest_movement,
+               found = largest_movement(radial->centre, file, grid);
+  radial->largest_movement = found <= rounding ? 0 : found;
+  return found <= said + rounding ? planetocentric_lines(*radial) : Provenance{};
+}
+
 }  // namespace
 
 std::string name_of(SampleMode mode) {
@@ -423,9 +435,13 @@ Remeshed remesh(const MappedMesh& source, SphereGrid grid, const RemeshOptions& 
   adopt_triangulation(file, cut);
   transfer.of_faces(file, source, cut);
   report(options.progress, "certify", 0);
+  SphereMap map{std::move(grid.directions)};
+  Provenance lines = provenance_of(source, grid.name, options.sample);
+  const Provenance radial = radial_lines(source, file, map);
+  lines.insert(lines.end() - 1, radial.begin(), radial.end());
   return {MappedMesh({.file = std::move(file),
-                      .map = {std::move(grid.directions)},
-                      .provenance = provenance_of(source, grid.name, options.sample),
+                      .map = std::move(map),
+                      .provenance = std::move(lines),
                       .polygons = std::move(grid.faces),
                       .name = grid.name},
                      options.threads),

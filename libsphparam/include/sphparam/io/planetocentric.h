@@ -20,6 +20,8 @@ struct Planetocentric {
 /// other maps.
 Provenance planetocentric_lines(const Parameterization& result);
 
+Provenance planetocentric_lines(const Planetocentric& radial);
+
 /// What such lines say; nothing where there are none, or other things than numbers in them.
 std::optional<Planetocentric> planetocentric(const Provenance& provenance);
 
@@ -55,8 +57,12 @@ Parameterization parameterize_standing(const MeshFile& file, const Topology& top
 /// longitudes and latitudes has the vertex. Throws: as `radial_directions`.
 SphereMap body_directions(const MeshFile& file, const Vector3& centre);
 
-/// Whether the map is what such lines say, as measured: it is not made anew, and no vertex of the
-/// surface (others than fillers have) is farther from its direction than they say, up to rounding.
+/// How far a vertex of the surface (others than fillers have) is from its direction from the
+/// centre at most, in radians, measured; infinite where a vertex has none.
+double largest_movement(const Vector3& centre, const MeshFile& file, const SphereMap& map);
+
+/// Whether the map is what such lines say, as measured: it is not made anew, and no vertex is
+/// farther from its direction (`largest_movement`) than they say, up to rounding.
 /// Not so where positions were moved since, or the map turned.
 bool is_as_said(const Planetocentric& radial, const MeshFile& file, const SphereMap& map);
 
