@@ -387,6 +387,12 @@ TEST_CASE(
   HarmonicExpansion enough = expand_in_harmonics(ball(), {}, {.degree = 4});
   enough.fit.decided_degree = 3;
   CHECK_THAT(undecided_line(enough), StartsWith("the vertices decide harmonics up to degree 3"));
+  enough.fit.decided_change = 0.0009;
+  CHECK(decided_change_line(enough).empty());
+  enough.fit.decided_change = 0.25;
+  CHECK(decided_change_line(enough) ==
+        "coefficients up to degree 3 are other ones than those of a fit of degree 3, too, of one "
+        "degree by 25 % of their size");
 }
 
 TEST_CASE("harmonics_record: 4π-normalised coefficients, and SHADR of the radius") {

@@ -196,6 +196,12 @@ TEST_CASE("spherical_harmonics: more coefficients than vertices leave something 
       fit_harmonics(Topology(sphere), map_of(sphere), sphere.positions, {.degree = 20});
   CHECK(fit.decided_degree.value() <= 11);
   CHECK(fit.decided_degree.value() >= 8);
+  const HarmonicFit decided = fit_harmonics(Topology(sphere), map_of(sphere), sphere.positions,
+                                            {.degree = *fit.decided_degree});
+  CHECK_FALSE(decided.decided_change);
+  const auto x = [](const HarmonicFit& of) { return of.coefficients(harmonic_index(1, 1), 0); };
+  CHECK(fit.decided_change.value() ==
+        Approx(std::abs(x(fit) - x(decided)) / std::abs(x(decided))).epsilon(1e-3));
 }
 
 TEST_CASE("spherical_harmonics: a function is integrated as it is between the vertices") {

@@ -91,6 +91,7 @@ void add_fit(Json& json, const HarmonicExpansion& expansion) {
   json["iterations"] = expansion.fit.iterations;
   json["converged"] = expansion.fit.converged;
   json["decided_degree"] = expansion.fit.decided_degree.value_or(expansion.degree());
+  if (expansion.fit.decided_change) json["decided_change"] = *expansion.fit.decided_change;
   json["position_rms"] = expansion.position_rms();
   json["position_rms_relative"] = expansion.position_rms() / expansion.diagonal;
   json["position_rms_unweighted"] = expansion.plain_position_rms();
@@ -205,6 +206,15 @@ std::string undecided_line(const HarmonicExpansion& expansion) {
   return numbers + "the vertices decide harmonics up to degree " +
          std::to_string(*expansion.fit.decided_degree) +
          ", and what they leave open beyond is near the integral's";
+}
+
+std::string decided_change_line(const HarmonicExpansion& expansion) {
+  constexpr double nothing = 1e-3;
+  const double change = expansion.fit.decided_change.value_or(0);
+  if (change < nothing) return "";
+  const std::string degree = std::to_string(expansion.fit.decided_degree.value());
+  return "coefficients up to degree " + degree + " are other ones than those of a fit of degree " +
+         degree + ", too, of one degree by " + percent(change) + " of their size";
 }
 
 std::vector<std::string> further_lines(const HarmonicExpansion& expansion) {

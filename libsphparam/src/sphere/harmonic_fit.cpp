@@ -126,13 +126,32 @@ VectorX scales_of(const Functions& values) {
   return scales;
 }
 
+/// By how much the coefficients of one degree, 1 or more, are other ones, of their own size; the
+/// most of all degrees and functions that are not next to nothing.
+double largest_change_of_a_degree(const Functions& wanted, const Functions& found) {
+  constexpr double nothing = 1e-6;  // of all coefficients but the mean
+  const Functions there = power_per_degree(wanted),
+                  off = power_per_degree(found.topRows(wanted.rows()) - wanted);
+  double largest = 0;
+  for (Eigen::Index k = 0; k < there.cols(); ++k) {
+    const double all = there.col(k).sum() - there(0, k);
+    for (Eigen::Index l = 1; l < there.rows(); ++l)
+      if (there(l, k) > nothing * nothing * all)
+        largest = std::max(largest, std::sqrt(off(l, k) / there(l, k)));
+  }
+  return largest;
+}
+
 /// From the coefficients that are there.
 void improve(const HarmonicLeastSquares& squares, Eigen::Index vertices, HarmonicFit& fit) {
   const Functions start = fit.coefficients;
   const auto [iterations, converged] = squares.solve(fit.coefficients);
   fit.iterations = iterations;
   fit.converged = converged;
-  if (!converged || start.rows() > vertices) fit.decided_degree = squares.decided_degree(start);
+  if (converged && start.rows() <= vertices) return;
+  const HarmonicLeastSquares::Decided decided = squares.decided(start);
+  fit.decided_degree = decided.degree;
+  fit.decided_change = largest_change_of_a_degree(decided.coefficients, fit.coefficients);
 }
 
 }  // namespace

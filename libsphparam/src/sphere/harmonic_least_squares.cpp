@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace sphparam {
 namespace {
@@ -78,15 +79,17 @@ HarmonicLeastSquares::End HarmonicLeastSquares::solve(Functions& coefficients, d
   return {iteration, !is_open && !goes_on.any()};
 }
 
-int HarmonicLeastSquares::decided_degree(const Functions& start) const {
+HarmonicLeastSquares::Decided HarmonicLeastSquares::decided(const Functions& start) const {
   const auto vertices = static_cast<double>(directions_.rows());
-  int decided = 0;
+  Decided decided{0, start.topRows(1)};
   int open = std::min(degree_of(start.rows()), static_cast<int>(std::sqrt(vertices)));
-  while (open - decided > 1) {
-    const int middle = (decided + open) / 2;
+  while (open - decided.degree > 1) {
+    const int middle = (decided.degree + open) / 2;
     Functions coefficients = start.topRows(Eigen::Index(middle + 1) * (middle + 1));
-    const bool converges = solve(coefficients, std::numeric_limits<double>::infinity()).converged;
-    (converges ? decided : open) = middle;
+    if (solve(coefficients, std::numeric_limits<double>::infinity()).converged)
+      decided = {middle, std::move(coefficients)};
+    else
+      open = middle;
   }
   return decided;
 }

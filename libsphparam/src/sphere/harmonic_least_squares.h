@@ -26,9 +26,14 @@ class HarmonicLeastSquares {
   /// From these coefficients, of any degree.
   End solve(Functions& coefficients) const;
 
+  /// What vertices decide.
+  struct Decided {
+    int degree;
+    Functions coefficients;  // of a fit of that degree
+  };
   /// The greatest degree below that of `start`, from whose first coefficients they converge without
   /// a step that goes on between the vertices; by bisection.
-  int decided_degree(const Functions& start) const;
+  Decided decided(const Functions& start) const;
 
  private:
   End solve(Functions& coefficients, double worth) const;

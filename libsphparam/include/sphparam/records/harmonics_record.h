@@ -43,6 +43,10 @@ std::string residual_line(const HarmonicExpansion& expansion);
 /// all; else empty.
 std::string undecided_line(const HarmonicExpansion& expansion);
 
+/// That coefficients of degrees that vertices do decide are other ones than a fit of these degrees
+/// alone has, by 0.1 % of a degree's size or more; else empty.
+std::string decided_change_line(const HarmonicExpansion& expansion);
+
 /// For people: the first-order ellipsoid, and what is left of each scalar; a line each.
 std::vector<std::string> further_lines(const HarmonicExpansion& expansion);
 

@@ -69,9 +69,11 @@ struct HarmonicFit {
 
   // Of least squares: whether conjugate gradients came to their tolerance. Where not, or where
   // there are more coefficients than vertices, the vertices leave something open: then also the
-  // greatest degree up to which a fit has no such trouble.
+  // greatest degree up to which a fit has no such trouble, and by how much the coefficients of a
+  // degree up to there are other ones than that fit's, of their size: the most of all.
   bool converged = true;
   std::optional<int> decided_degree = {};
+  std::optional<double> decided_change = {};
 
   // Of quadrature, not of least squares: the degree of the grid of its nodes, and by how much the
   // coefficients changed when it was doubled last, of √∫(f − mean)² (the function where it is
