@@ -574,3 +574,98 @@ def test_what_a_file_says_falsely_of_its_map_is_told(tmp_path):
     sp.write(tmp_path / "beside.off", vertices + (0.2, 0, 0), faces)
     proof, messages = told(lambda: sp.verify(tmp_path / "beside.off"))
     assert proof.one_to_one and len(messages) == 1 and "not on a sphere about the origin" in messages[0]
+
+
+def bent():
+    """Of a potato whose top leans over, as seen from its middle."""
+    vertices, faces = potato(3)
+    x, y, z = vertices.T
+    return np.stack([x + 2.5 * np.maximum(z, 0) ** 2, y, z - 1.2 * np.maximum(z - 0.3, 0)], 1), faces
+
+
+def test_radial_maps_of_what_is_not_star_shaped_are_told():
+    made, told_of_map = told(lambda: sp.map(*bent(), method="radial"))
+    assert made.radial.folds > 0 and told_of_map == made.warnings
+    [line] = [line for line in told_of_map if line.startswith("not star-shaped about (0, 0, 0): ")]
+    assert f"{made.radial.folds} triangles fold" in line
+    for bake in (
+        lambda: made.bake("radius", size=32, body="1"),
+        lambda: made.bake("radius", size=32, convention="gis"),
+        lambda: made.paint(np.zeros((16, 32, 3), np.uint8), convention="gis"),
+    ):
+        [line] = told(bake)[1]
+        assert line.startswith("the map's longitudes and latitudes are ") and "of the body (RMS over the surface)" in line
+    assert told(lambda: made.bake("radius", size=32))[1] == []
+    aligned = sp.map(V, F, align="body")
+    [line] = told(lambda: aligned.bake("lat", size=32, body="1"))[1]
+    assert 'map(mesh, method="radial") has the body\'s, align="body" comes near' in line
+    assert told(lambda: sp.map(V, F, method="radial"))[1] == []
+    assert told(lambda: sp.map(V, F, method="radial").bake("lat", size=32, body="1"))[1] == []
+
+
+def test_a_centre_outside_and_another_unit_are_told(tmp_path):
+    _, [line] = told(lambda: sp.map(V, F, align="body", centre=(0, 0, 9)))
+    assert line.startswith('the centre 0,0,9 lies outside of the surface: centre="centroid" is ')
+    body = sp.map(V, F, method="radial")
+    for bake in (
+        lambda: body.bake("elevation", size=32, body="Moon", unit="km"),
+        lambda: body.bake_files({"elevation": tmp_path / "a.tif"}, size=32, body="Moon", unit="km"),
+    ):
+        [line] = told(bake)[1]
+        assert line.endswith("the radius of the body is 1.74e+06 m: the mesh is in another unit (unit=)")
+    lines = told(lambda: body.bake("radius", size=32, body="1", centre=(0, 0, 9)))[1]
+    assert any(line.startswith("the centre 0,0,9 lies outside of the surface") for line in lines)
+
+
+def test_numbers_of_images_come_back(painted):
+    rows, columns = np.indices((64, 128)).astype(float)
+    theta, phi = painted.theta, painted.phi
+    inside = (phi > np.pi / 64) & (phi < np.pi * 63 / 64)
+    found = painted.sample(rows)
+    assert found.shape == (len(V),) and np.allclose(found[inside], (phi / np.pi * 64 - 0.5)[inside], atol=1e-11)
+    for convention, turns, offset in (("sphparam", 1, 0), ("gis", 1, 0.5), ("envmap", -1, 0.25), ("blender", -1, 0.5)):
+        u = (turns * theta / (2 * np.pi) + offset) % 1
+        between = (u > 1 / 128) & (u < 127 / 128) & inside
+        found = painted.sample(np.stack([columns, rows], -1), convention=convention)
+        assert np.allclose(found[between, 0], (u * 128 - 0.5)[between], atol=1e-10)
+        found = painted.sample(columns, convention=convention, nearest=True)
+        assert (found == np.floor(u * 128) % 128)[between].all()
+    middles = painted.points[F].sum(axis=1)
+    latitude = painted.sample(np.pi / 2 - np.pi * (rows + 0.5) / 64, at="faces")
+    exact = np.arcsin(middles[:, 2] / np.linalg.norm(middles, axis=1))
+    assert latitude.shape == (len(F),) and np.abs(latitude - exact).max() < np.pi / 128
+    baked = painted.bake("scalar:height", size=512, body="1")
+    assert np.abs(painted.sample(baked)[:, 0] - V[:, 2]).max() < 0.03
+    with pytest.raises(ValueError, match="baked with convention='gis'"):
+        painted.sample(baked, convention="three")
+    with pytest.raises(ValueError, match="a part of a baked image"):
+        painted.sample(baked[::2, ::2])
+    with pytest.raises(ValueError, match="twice as wide as high"):
+        painted.sample(rows[:, :64, None])
+    with pytest.raises(ValueError, match="at: "):
+        painted.sample(rows, at="corners")
+
+
+def test_pictures_of_what_was_baked_are_colours(painted):
+    assert told(lambda: painted.paint(painted.bake("scalar:height", size=64)))[1] == []
+
+
+def test_coefficients_without_room_are_told(painted, tmp_path):
+    _, [line] = told(lambda: painted.spharm(2, values=["height"]).save(tmp_path / "a.coef"))
+    assert line.endswith("a.coef: a .coef has x, y and z alone: height left out, which .json and .csv have")
+    assert told(lambda: painted.spharm(2).save(tmp_path / "b.coef"))[1] == []
+
+
+@pytest.mark.parametrize("exact", [False, True])
+def test_seams_that_rounding_tears_are_joined(exact):
+    latitude, longitude = np.meshgrid(np.linspace(90, -90, 13), np.linspace(0, 360, 25), indexing="ij")
+    b, a = np.radians(latitude), np.radians(longitude)
+    r = 1 + 0.2 * np.cos(2 * a) * np.cos(b) ** 2
+    vertices = np.stack([r * np.cos(b) * np.cos(a), r * np.cos(b) * np.sin(a), r * np.sin(b)], -1).reshape(-1, 3)
+    if exact:
+        vertices[6 * 25 + 24] = vertices[6 * 25]  # of some copies
+    p = (np.arange(12)[:, None] * 25 + np.arange(24)).ravel()
+    faces = np.concatenate([np.stack([p, p + 25, p + 26], 1), np.stack([p, p + 26, p + 1], 1)])
+    made, lines = told(lambda: sp.map(vertices, faces, method="radial", repair=True))
+    assert len(made.vertices) == 24 * 11 + 2 and len(made.faces) == 2 * (24 * 11)
+    assert made.radial.folds == 0 and made.radial.moved == 0 and lines == []

@@ -40,12 +40,6 @@ MappedMesh read_mapped(const std::string& path, const std::string& sphere, Sessi
 MappedMesh map_source(MeshSource source, const std::string& sphere, Session& session,
                       const RepairArguments& repair = {}, double lambda = 1);
 
-/// How far a map's longitudes and latitudes are from those of the body that the mesh is, seen from
-/// the centre, why, and what would have them; empty where they are the same, and, of bodies only,
-/// of what is none: neither mapped as one, nor star-shaped but for little.
-std::string longitudes_off(const MappedMesh& mapped, const Vector3& centre, bool of_bodies_only,
-                           int threads);
-
 /// Of images for geographers: how far the map's longitudes and latitudes are from those of the body
 /// that the mesh is, seen from the given centre, else that of a radial map or the origin; nothing
 /// where they are the same, and of what is no body: neither named as one, nor mapped as one, nor

@@ -15,6 +15,7 @@
 #include "reports/told_fillers.h"
 #include "reports/told_losses.h"
 #include "sphere/body_centre.h"
+#include "sphparam/io/body_longitudes.h"
 #include "sphparam/io/certified_files.h"
 #include "sphparam/io/coef_file.h"
 #include "sphparam/io/fillers.h"
@@ -126,6 +127,7 @@ void warn_of_open_degrees(const HarmonicExpansion& expansion, Console& console) 
   if (open.empty()) return;
   console.warning(open + "; --degree " + std::to_string(*expansion.fit.decided_degree) +
                   " leaves it out, --fit quadrature is the integral");
+  if (const std::string line = decided_change_line(expansion); !line.empty()) console.warning(line);
 }
 
 /// The mesh with its map; what it lacks is told before it is mapped.

@@ -4,7 +4,7 @@
 #include "sphparam/bake/bake.h"
 
 #include <algorithm>
-#include <array>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 
@@ -14,9 +14,9 @@
 #include "bake/field_registry.h"
 #include "bake/georeference/georeference.h"
 #include "bake/image_plan.h"
-#include "bake/inside_out.h"
 #include "bake/make_scene.h"
 #include "bake/projected_surface.h"
+#include "bake/source_doubts.h"
 #include "bake/texels/calm_walls.h"
 #include "bake/write_images.h"
 #include "io/attributes/array_lengths.h"
@@ -24,7 +24,6 @@
 #include "io/attributes/one_material.h"
 #include "mesh/box.h"
 #include "number_text.h"
-#include "sphere/body_centre.h"
 #include "sphparam/io/planetocentric.h"
 #include "sphparam/version.h"
 
@@ -90,29 +89,10 @@ void add_line(BakeReport& report, std::string line) {
 
 std::string remark_of(const SurfaceField& field) { return field.remark ? field.remark() : ""; }
 
-std::string turning_line(const MappedMesh& source) {
-  return is_inside_out(source) ? "the mesh is inside out: normals, rays and curvature are of its "
-                                 "inside; --repair=orientation turns it over"
-                               : "";
-}
-
-constexpr std::array body_fields = {"lon", "lat", "lonlat", "radius", "slope", "elevation"};
-
-/// Bodies are seen from inside; coordinates of other things begin anywhere.
-std::string centre_line(const MappedMesh& source, const std::vector<BakeRequest>& images,
-                        const BakeSettings& settings) {
-  const auto shown = [&](const char* field) {
-    return std::ranges::count(images, field, &BakeRequest::field) > 0;
-  };
-  const TriangleMesh& mesh = source.mesh();
-  if (std::ranges::any_of(body_fields, shown))
-    return line_of_outside(
-        mesh, body_centre(planetocentric(source.provenance()), settings.fields.centre));
-  const bool radial = settings.fields.height_radial || !settings.target;
-  const bool shows_height = shown("height:radial") || (radial && shown("height"));
-  if (!shows_height || winds_about(mesh, Vector3::Zero())) return "";
-  return "height: the origin, from which it is measured, lies outside of the surface: --map radius "
-         "--centre centroid is the distance from the middle of what it encloses";
+std::vector<std::string> fields_of(const std::vector<BakeRequest>& images) {
+  std::vector<std::string> names;
+  std::ranges::transform(images, std::back_inserter(names), &BakeRequest::field);
+  return names;
 }
 
 bool needs_textures(const std::string& field) { return field == "basecolor"; }
@@ -225,8 +205,8 @@ BakeReport bake(const MappedMesh& source, const std::vector<BakeRequest>& images
   ChosenTarget chosen = choose_target(source, settings);
   BakeReport report{
       .images = {}, .target_distance = chosen.distance, .warnings = std::move(chosen.warnings)};
-  if (!settings.from) add_line(report, turning_line(source));
-  if (!settings.from) add_line(report, centre_line(source, images, settings));
+  for (std::string& warning : doubts_about(source, fields_of(images), settings))
+    report.warnings.push_back(std::move(warning));
   const bool with_textures =
       std::ranges::any_of(images, [](const auto& image) { return needs_textures(image.field); });
   BakeScene scene = scene_for(source, std::move(chosen.target), with_textures, settings);

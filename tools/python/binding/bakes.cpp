@@ -13,6 +13,9 @@
 #include "binding.h"
 #include "call.h"
 #include "sphparam/bake/bake.h"
+#include "sphparam/bake/bake_warnings.h"
+#include "sphparam/io/body_longitudes.h"
+#include "sphparam/io/planetocentric.h"
 
 namespace sphparam::python {
 namespace {
@@ -109,14 +112,32 @@ std::vector<BakedArray> bake_arrays(const MappedMesh& source,
   return baked;
 }
 
+/// That longitudes of images for geographers are not the body's.
+std::string longitude_line(const MappedMesh& source, const BakeSettings& settings) {
+  if (settings.convention != Convention::Gis) return "";
+  const Vector3 centre = body_centre(planetocentric(source.provenance()), settings.fields.centre);
+  return longitudes_off(source, centre, !settings.fields.body, settings.threads);
+}
+
+std::vector<std::string> warnings_of_arrays(const MappedMesh& source,
+                                            const std::vector<std::string>& fields,
+                                            const BakeSettings& settings) {
+  std::vector<std::string> lines = bake_warnings(source, fields, settings);
+  lines.insert(lines.begin(), longitude_line(source, settings));
+  std::erase(lines, "");
+  return lines;
+}
+
+/// Of each field name, what it is, and numbers; last what there is to warn of.
 py::list bake_to_arrays(const Mapped& mapped, const std::vector<std::string>& fields,
                         const py::dict& values, const py::object& progress) {
   BakeSettings settings = bake_settings(values);
   const int width = settings.width;
-  std::vector<BakedArray> baked =
+  auto [baked, warnings] =
       call(progress, [=, mesh = mapped.mesh()](const Progress& report) mutable {
         settings.progress = report;
-        return bake_arrays(mesh, fields, settings);
+        return std::pair(bake_arrays(mesh, fields, settings),
+                         warnings_of_arrays(mesh, fields, settings));
       });
   py::list list;
   for (BakedArray& array : baked) {
@@ -125,6 +146,7 @@ py::list bake_to_arrays(const Mapped& mapped, const std::vector<std::string>& fi
                                owning(std::move(array.values), {width / 2, width, channels}),
                                array.field.rounding));
   }
+  list.append(as_texts(warnings));
   return list;
 }
 
@@ -137,7 +159,10 @@ py::list bake_to_files(const Mapped& mapped,
   const BakeReport report =
       writing_call(progress, [=, mesh = mapped.mesh()](const Progress& told) mutable {
         settings.progress = told;
-        return bake(mesh, requests, settings);
+        BakeReport made = bake(mesh, requests, settings);
+        made.warnings.insert(made.warnings.begin(), longitude_line(mesh, settings));
+        std::erase(made.warnings, "");
+        return made;
       });
   py::list list;
   for (const BakedImage& image : report.images) {

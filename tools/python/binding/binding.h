@@ -53,10 +53,11 @@ struct Source {
 };
 
 /// How a map was made here: seconds by the clock, and of all processors; whether the surface
-/// encloses a negative volume.
+/// encloses a negative volume; what looked wrong with what was asked.
 struct Making {
   double wall = 0, processors = 0;
   bool inside_out = false;
+  std::vector<std::string> doubts = {};
 };
 
 /// A mesh with its proved map. Copies share it.

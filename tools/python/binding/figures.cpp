@@ -2,16 +2,18 @@
 
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <array>
-#include <numbers>
+#include <iterator>
 #include <optional>
 #include <set>
 
 #include "arrays.h"
 #include "binding.h"
 #include "call.h"
-#include "embedding/frame/nearest_rotation.h"
 #include "measure/enclosure.h"
+#include "sphere/body_centre.h"
+#include "sphparam/io/body_longitudes.h"
 #include "sphparam/io/coef_file.h"
 #include "sphparam/io/fillers.h"
 #include "sphparam/io/harmonic_expansion.h"
@@ -102,14 +104,14 @@ py::tuple growth(const Source& first, const Source& second) {
   return py::make_tuple(list(found.faces), list(found.vertices));
 }
 
-/// Degrees, RMS over the surface, of the map's directions from those of a body about this centre; 0
-/// where there is no such body.
-double degrees_off(const MappedMesh& mapped, const Vector3& centre) try {
-  return 180 / std::numbers::pi *
-         rms_angle(mapped.map(), body_directions(mapped.file(), centre),
-                   vertex_areas(surface_of(mapped.mesh(), mapped.fillers())));
-} catch (const VertexAtCentre&) {
-  return 0;
+/// What is wrong with a radius about this centre, over the longitudes that the map has.
+std::vector<std::string> doubts_about_radius(const MappedMesh& mapped, const Vector3& centre,
+                                             int threads) {
+  std::vector<std::string> lines = {line_of_outside(mapped.mesh(), centre)};
+  if (std::string off = longitudes_off(mapped, centre, false, threads); !off.empty())
+    lines.push_back("the longitudes of these harmonics are the map's, not the body's: " + off);
+  std::erase(lines, "");
+  return lines;
 }
 
 Functions table_of(const py::array_t<double, py::array::c_style>& coefficients) {
@@ -166,18 +168,21 @@ py::dict expand(const Mapped& mapped, int degree, const std::vector<std::string>
     return expansion;
   });
   std::vector<std::string> doubts;
-  if (found.alignment) doubts = doubts_about(*found.alignment);
+  if (centre) doubts = doubts_about_radius(mapped.mesh(), *centre, threads);
+  if (found.alignment)
+    std::ranges::copy(doubts_about(*found.alignment), std::back_inserter(doubts));
   if (found.fit.quadrature_change.value_or(0) > settled_quadrature)
     doubts.emplace_back("the integral has not settled with the most nodes that there are");
   const int decided = found.fit.decided_degree.value_or(degree);
   if (found.fit.decided_degree)
     doubts.push_back(undecided_line(found) + "; degree=" + std::to_string(decided) +
                      " leaves it out, least_squares=False is the integral");
+  if (const std::string line = decided_change_line(found); !line.empty())
+    doubts.back() += "; " + line;
   const double rms = found.position_rms(), plain_rms = found.plain_position_rms(),
                diagonal = found.diagonal;
   py::dict dict =
       as_dict(Expansion{std::move(found), mapped.mesh().name(), mapped.mesh().provenance()});
-  dict["degrees_off"] = centre ? degrees_off(mapped.mesh(), *centre) : 0;
   dict["rms"] = rms;
   dict["plain_rms"] = plain_rms;
   dict["diagonal"] = diagonal;

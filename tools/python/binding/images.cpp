@@ -10,6 +10,8 @@
 #include "arrays.h"
 #include "binding.h"
 #include "call.h"
+#include "sphparam/io/body_longitudes.h"
+#include "sphparam/io/planetocentric.h"
 #include "sphparam/io/upright_frame.h"
 #include "sphparam/paint/paint.h"
 #include "sphparam/render/picture.h"
@@ -18,6 +20,19 @@
 
 namespace sphparam::python {
 namespace {
+
+/// What looks wrong with an image on a map.
+std::vector<std::string> doubts_about(const std::string& path, const EquirectangularImage& image,
+                                      const MappedMesh& mesh, Convention convention, int threads) {
+  std::vector<std::string> lines = {warning_of_shape(path, image.width(), image.height()),
+                                    image.warning(), warning_of_map(path, image, mesh)};
+  if (convention == Convention::Gis) {
+    const Vector3 centre = body_centre(planetocentric(mesh.provenance()), std::nullopt);
+    lines.push_back(longitudes_off(mesh, centre, true, threads));
+  }
+  std::erase(lines, "");
+  return lines;
+}
 
 /// Red, green, blue and perhaps alpha of each vertex, 0 to 255; and warnings.
 py::tuple paint(const Mapped& mapped, const FilePath& path, const std::string& convention,
@@ -33,10 +48,7 @@ py::tuple paint(const Mapped& mapped, const FilePath& path, const std::string& c
           channel && (found.size() < 3 || image.has_alpha()))
         found.push_back(channel->values);
     }
-    std::vector<std::string> told = {warning_of_shape(path, image.width(), image.height()),
-                                     image.warning(), warning_of_map(path, image, mesh)};
-    std::erase(told, "");
-    return std::pair(std::move(found), std::move(told));
+    return std::pair(std::move(found), doubts_about(path, image, mesh, longitude, threads));
   });
   const std::size_t count = channels.front().size();
   std::vector<std::uint8_t> colours;
@@ -54,10 +66,9 @@ py::tuple paint_texture(const Mapped& mapped, const FilePath& path, const std::s
     const EquirectangularImage image = read_equirectangular(path, longitude, threads);
     PaintedAtlas painted = paint_atlas(
         mesh, image, {.size = size, .padding = padding, .threads = threads, .progress = report});
-    std::vector<std::string> told = {warning_of_shape(path, image.width(), image.height()),
-                                     image.warning(), warning_of_map(path, image, mesh),
-                                     overlap_warning(painted, mesh.file())};
-    std::erase(told, "");
+    std::vector<std::string> told = doubts_about(path, image, mesh, longitude, threads);
+    if (std::string line = overlap_warning(painted, mesh.file()); !line.empty())
+      told.push_back(std::move(line));
     return std::pair(std::move(painted.image), std::move(told));
   });
   const std::vector<py::ssize_t> shape{atlas.height, atlas.width, atlas.channels};
@@ -160,6 +171,10 @@ Up up_of(const std::string& up, const std::string& front) {
 }
 
 void declare_images(py::module_& module) {
+  module.def("turns_of", [](const std::string& convention) {
+    const ConventionInfo& info = info_of(convention_of(convention));
+    return py::make_tuple(info.turns, info.offset);
+  });
   module.def("paint", paint);
   module.def("paint_texture", paint_texture);
   module.def("draw", draw);

@@ -5,6 +5,7 @@
 #include <pybind11/stl.h>
 
 #include "arrays.h"
+#include "sphere/body_centre.h"
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/io/fillers.h"
 #include "sphparam/io/planetocentric.h"
@@ -105,11 +106,16 @@ void settle_vertices(Request& request, const MeshFile& file) {
 
 }  // namespace
 
-void settle(Request& request, MeshFile& file, const Topology& topology) {
+std::vector<std::string> settle(Request& request, MeshFile& file, const Topology& topology) {
   ParameterizeOptions& options = request.options;
   settle_vertices(request, file);
   if (request.stands) stand(request, file, topology);
   if (request.to_body) options.align_to = body_directions(file, options.centre);
+  std::vector<std::string> doubts;
+  if (request.to_body || options.method == Method::Radial)
+    doubts.push_back(line_of_outside(file.mesh, options.centre));
+  std::erase(doubts, "");
+  return doubts;
 }
 
 }  // namespace sphparam::python

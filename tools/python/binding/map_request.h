@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "binding.h"
@@ -24,7 +25,8 @@ struct Request {
 Request map_request_of(const py::dict& values);
 
 /// Poles, meridian and pins as vertices of the mesh; the directions of a body; how the mesh stands,
-/// which its file says then. Throws: NoSuchVertex; VertexAtCentre; FrontError.
-void settle(Request& request, MeshFile& file, const Topology& topology);
+/// which its file says then; returns what looks wrong with that. Throws: NoSuchVertex;
+/// VertexAtCentre; FrontError.
+std::vector<std::string> settle(Request& request, MeshFile& file, const Topology& topology);
 
 }  // namespace sphparam::python

@@ -2,7 +2,9 @@
 
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <atomic>
+#include <iterator>
 
 #include "arrays.h"
 #include "binding.h"
@@ -10,6 +12,7 @@
 #include "sphparam/io/creases.h"
 #include "sphparam/io/fillers.h"
 #include "sphparam/stopped_by.h"
+#include "sphparam/words.h"
 
 namespace sphparam::python {
 
@@ -70,6 +73,15 @@ const Certificate& Mapped::certificate() const {
 
 namespace {
 
+/// What there is to say of how the map came out, also that it is not quite what it is called.
+std::vector<std::string> told_of(const Parameterization& made, const Making& making) {
+  std::vector<std::string> lines = making.doubts;
+  std::ranges::copy(made.warnings, std::back_inserter(lines));
+  if (made.radial && (made.radial->folds > 0 || made.radial->moved > 0))
+    lines.push_back(radial_line(*made.radial));
+  return lines;
+}
+
 /// How the map came about; nothing where it was read.
 py::object account(const Mapped& mapped) {
   if (!mapped.made()) return py::none();
@@ -86,7 +98,7 @@ py::object account(const Mapped& mapped) {
   dict["pole_cost"] = made.pole_cost;
   dict["energy_gap"] = made.energy_gap;
   dict["pin_residuals"] = made.pin_residuals;
-  dict["warnings"] = as_texts(made.warnings);
+  dict["warnings"] = as_texts(told_of(made, mapped.making()));
   dict["filler_share"] = made.filler_share;
   dict["alignment"] = made.alignment;
   dict["radial"] = py::none();

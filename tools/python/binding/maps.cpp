@@ -84,14 +84,15 @@ Mapped map_mesh(MeshSource source, Request request) {
   ParameterizeOptions& options = request.options;
   Topology topology = topology_of(source, options.threads);
   require_area(source);
-  settle(request, source.file, topology);
+  std::vector<std::string> doubts = settle(request, source.file, topology);
   const Stopwatch stopwatch;
   const std::clock_t begin = std::clock();
   options.fillers = fillers_of(source.file);
   Parameterization result = parameterize_standing(source.file, topology, options);
   const Making making{
       stopwatch.seconds(), static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC,
-      enclosed(source.file.mesh) < 0 && !is_sheet(source.file.mesh, options.fillers)};
+      enclosed(source.file.mesh) < 0 && !is_sheet(source.file.mesh, options.fillers),
+      std::move(doubts)};
   require_wanted(result, options);
   const FileNumbers numbers(source.file);
   std::string upright;

@@ -95,6 +95,12 @@ class BakedImage(_Floats):
         super().__setstate__(state[0])
         self._showing(state[1])
 
+    @property
+    def _is_of_numbers(self) -> bool:
+        """Whether its picture is scaled from dark to bright: it shows neither colours nor shares nor directions."""
+        directions = self.field.startswith(("normal", "bent"))
+        return not directions and self.field not in _shares and not is_colour(self.field, self.about)
+
     def picture(self) -> Bytes:
         """Colours to look at or to export, (H, W, 3) or (H, W, 4), 0 to 255.
 
@@ -109,7 +115,7 @@ class BakedImage(_Floats):
             table, covered = table[:, :, :-1], table[:, :, -1:]
         if self.field.startswith(("normal", "bent")):
             table = (table + 1) / 2
-        elif self.field not in _shares and not is_colour(self.field, self.about):
+        elif self._is_of_numbers:
             shown = table[covered[:, :, 0] > 0]
             least, greatest = (shown.min(), shown.max()) if shown.size else (0, 0)
             table = (table - least) / ((greatest - least) or 1)

@@ -24,6 +24,8 @@ _typed_here = {
     "--repair=orientation turns it over": "repair=True where it is mapped turns it over",
     "--map radius --centre centroid is": 'bake("radius", centre="centroid") is',
     "--centre centroid is": 'centre="centroid" is',
+    "`sphparam map` --method radial has the body's, --align body comes near": 'map(mesh, method="radial") has the body\'s, align="body" comes near',
+    "`sphparam map` --align body comes near": 'map(mesh, align="body") comes near',
     "`sphparam repair` turns it over": "repair(read(path)) turns it over, save makes a file of it",
     "`sphparam bake --map normal-tangent` makes it": 'bake("normal-tangent") makes it',
     "; `--limit file=N` raises it": "; read(path, limits=dict(file=N)) raises it",
@@ -38,6 +40,7 @@ def as_typed_here(message: str) -> str:
         message = message.replace(option, argument)
     message = re.sub(r"--max-edge (\S+)", r"repair=dict(edge_length=\1)", message)
     message = re.sub(r"--repair --weld (\S+)%", _as_weld_typed, message)
+    message = re.sub(r", with --centre (\S+)$", r", with centre=(\1)", message)
     return re.sub(r": --convention (\w+) shows", r': convention="\1" shows', message)
 
 

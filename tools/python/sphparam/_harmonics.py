@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Dict, List, Optional, Tuple
 
 from . import _arrays, _core
 from ._attributes import document
+from ._losses import tell
 from ._map_grids import grid_of
 from ._mesh import Path, path_of
 from ._numpy import np
@@ -88,6 +89,9 @@ class Harmonics:
             raise ValueError(f"path: coefficients end in .json, .csv or .coef, not {name!r}")
         if _arrays.text(normalisation, "normalisation") not in ("orthonormal", "4pi"):
             raise ValueError(f"normalisation: 'orthonormal' or '4pi', not {normalisation!r}")
+        lost = self.functions[3:] if name.lower().endswith(".coef") else ()
+        if lost:
+            tell([f"{name}: a .coef has x, y and z alone: {', '.join(lost)} left out, which .json and .csv have"])
         _core.write_harmonics(self._expansion, self._table(), name, normalisation == "4pi")
 
     def surface(self, grid: Any, *, degree: Optional[int] = None, threads: int = 0) -> SphereMap:

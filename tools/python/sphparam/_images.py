@@ -7,7 +7,7 @@ import struct
 import tempfile
 import zlib
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, Iterator, Optional, Union
+from typing import TYPE_CHECKING, Any, Iterator, Optional, Tuple, Union
 
 import numpy as np
 
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     Bytes = npt.NDArray[np.uint8]
+    Floats = npt.NDArray[np.float64]
     Image = Union[Path, npt.NDArray[Any]]
 
 
@@ -62,6 +63,43 @@ def png_of(colours: Bytes, field: str = "") -> bytes:
     return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + told + chunk(b"IDAT", body) + chunk(b"IEND", b"")
 
 
+def as_numbers(image: Any, name: str) -> Tuple[Floats, str]:
+    """A table of an equirectangular image, and the convention that it was baked with; empty: it was not."""
+    table = numbers(image, name)
+    if table.ndim not in (2, 3) or 0 in table.shape or table.shape[1] != 2 * table.shape[0]:
+        shape = "×".join(str(n) for n in table.shape) or "a single number"
+        raise ValueError(f"{name}: height×width, or ×C, twice as wide as high, are needed, not {shape}")
+    baked_for = ""
+    if isinstance(image, BakedImage) and image.field:
+        baked_for = image.convention
+        if not baked_for:
+            raise ValueError(f"{name}: a part of a baked image, or turned; the whole is needed, or numpy.asarray(…)")
+    return np.asarray(table, dtype=np.float64), baked_for
+
+
+def at_directions(table: Floats, points: Floats, turns: Tuple[int, float], nearest: bool) -> Floats:
+    """What a table has in directions of any length. Beyond a pole a row goes on half a turn away."""
+    height, width = table.shape[:2]
+    theta, phi = np.arctan2(points[:, 1], points[:, 0]), np.arctan2(np.hypot(points[:, 0], points[:, 1]), points[:, 2])
+    u, v = turns[0] * theta / (2 * np.pi) + turns[1], phi / np.pi
+    if nearest:
+        sampled: Floats = table[np.clip((v * height).astype(int), 0, height - 1), np.floor(u * width).astype(int) % width]
+        return sampled
+
+    def on_row(row: Any) -> Any:
+        x = (u + 0.5 * ((row < 0) | (row >= height))) * width - 0.5
+        column = np.floor(x).astype(int)
+        share = (x - column).reshape((-1,) + (1,) * (table.ndim - 2))
+        inside = np.clip(row, 0, height - 1)
+        return (1 - share) * table[inside, column % width] + share * table[inside, (column + 1) % width]
+
+    y = v * height - 0.5
+    above = np.floor(y).astype(int)
+    down = (y - above).reshape((-1,) + (1,) * (table.ndim - 2))
+    found: Floats = (1 - down) * on_row(above) + down * on_row(above + 1)
+    return found
+
+
 @contextmanager
 def as_file(image: Optional[Any], name: str, convention: str, refine_poles: Optional[int] = None) -> Iterator[str]:
     """The path of an image: of the file it is, or of one that is there for as long as it is needed."""
@@ -78,5 +116,6 @@ def as_file(image: Optional[Any], name: str, convention: str, refine_poles: Opti
         with tempfile.TemporaryDirectory(prefix="sphparam-") as folder:
             path = os.path.join(folder, f"{name}.png")
             with open(path, "wb") as file:
-                file.write(png_of(colours, image.field if isinstance(image, BakedImage) else ""))
+                is_scaled = not isinstance(image, BakedImage) or image._is_of_numbers  # no field any more
+                file.write(png_of(colours, "" if is_scaled else image.field))
             yield path

@@ -195,9 +195,6 @@ class MapGrids(MapFacts):
                 _arrays.flag(radius, "radius"), about, _arrays.threads(threads), report,  # fmt: skip
             )
         tell(found["doubts"])
-        if found["degrees_off"] >= 1e-4:
-            off = f"they are {found['degrees_off']:.3g}° from these (RMS over the surface); method=\"radial\" has them"
-            tell([f"the longitudes of these harmonics are the map's, not the body's: {off}"])
         return Harmonics(found)
 
     def _transferred(self, transfer: Union[str, Iterable[str]]) -> List[str]:

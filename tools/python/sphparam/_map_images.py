@@ -15,6 +15,7 @@ from ._up import Direction, as_direction
 if TYPE_CHECKING:
     from ._baked import BakedImage, Bytes
     from ._images import Image
+    from ._map_facts import Floats
     from ._sphere_map import SphereMap
 
 _baking_options = (
@@ -184,7 +185,8 @@ class MapImages(MapFacts):
         options = _baking(locals())
         self._require_scalar(field, surface)
         with told(progress) as report:
-            [(name, about, table, rounding)] = _core.bake_to_arrays(self._mapped, [field], options, report)
+            (name, about, table, rounding), warned = _core.bake_to_arrays(self._mapped, [field], options, report)
+        tell(warned)
         if rounding:
             tell([rounding.replace("depth u16 (.png, .tif)", 'bake_files(…, depth="u16")')])
         frame = (target or self)._fingerprint() if name == "normal-tangent" else None
@@ -266,6 +268,34 @@ class MapImages(MapFacts):
             colours, warned = _core.paint(self._mapped, path, convention, _arrays.threads(threads), report)
         tell(warned)
         return colours
+
+    def sample(
+        self, image: Any, *, at: str = "vertices", convention: Optional[str] = None, nearest: bool = False
+    ) -> Floats:
+        """Numbers of an equirectangular array at vertices or faces, (V,) or (V, C) floats: the way back of :meth:`bake`.
+
+        Parameters
+        ----------
+        image
+            (H, W) or (H, W, C) numbers, twice as wide as high, row 0 at the north pole: heights, labels, what
+            :meth:`bake` made or an archive has. Colours of vertices are :meth:`paint`'s.
+        at
+            ``"vertices"``, or ``"faces"``: at the middle of each on the sphere.
+        convention
+            Where longitude goes, as of :meth:`bake`; None: as the image was baked, else ``"sphparam"``.
+        nearest
+            The texel that the direction is in, as labels want it; else bilinear between the middles of four.
+        """
+        from ._images import as_numbers, at_directions
+
+        table, baked_for = as_numbers(image, "image")
+        longitude = baked_for or "sphparam" if convention is None else _arrays.text(convention, "convention")
+        if baked_for and longitude != baked_for:
+            raise ValueError(f"image: baked with convention={baked_for!r}, taken with convention={longitude!r}")
+        if at not in ("vertices", "faces"):
+            raise ValueError(f"at: 'vertices' or 'faces', not {at!r}")
+        points = self.points if at == "vertices" else self.points[self.faces].sum(axis=1)
+        return at_directions(table, points, _core.turns_of(longitude), _arrays.flag(nearest, "nearest"))
 
     def paint_texture(
         self,

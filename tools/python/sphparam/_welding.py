@@ -79,6 +79,17 @@ def lost_by_nearness(given: Mesh, made: Mesh) -> Iterator[str]:
     )
 
 
+def _weld_advice(better: Mesh) -> List[str]:
+    """What is advised where some copies are not exact; nothing where repair needs no distance."""
+    if _core.inspect(better._source)["is_sphere"]:
+        return []
+    try:
+        _core.refuse(better._source)
+    except MeshError as left:
+        return left._text if any(line.startswith("map(mesh, repair=dict(weld_share=") for line in left._text) else []
+    return []
+
+
 def require_welded(mesh: Mesh) -> None:
     """Refuses arrays that repair would weld first, and says so before what else it would do.
 
@@ -90,6 +101,9 @@ def require_welded(mesh: Mesh) -> None:
     if better is None:
         return
     defects = [Defect(*row) for row in _core.inspect(mesh._source)["defects"]]
+    nearer = _weld_advice(better)
+    if nearer:
+        raise MeshError._instead(defects, [f"{better._welds[0].times} exact copies of vertices are welded first, and then:", *nearer])
     lines: List[str] = [f"map(mesh, repair=True) welds {better._welds[0].times} exact copies of vertices first,"]
     try:
         done = _core.repair(better._source, {}, True, None)

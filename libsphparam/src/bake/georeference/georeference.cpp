@@ -16,13 +16,13 @@ double mean_radius(const TriangleMesh& mesh, const Vector3& centre) {
 }
 
 /// Shape models are in kilometres or in metres, and none says so.
-void warn_of_unit(double radius, const Body& body, BakeReport& report) {
+std::string unit_line(double radius, const Body& body) {
   constexpr double far_off = 5;  // long bodies have a few times the radius that their axes have
   const double metres = radius * body.unit, wanted = body.semi_axes.mean();
-  if (metres < far_off * wanted && metres > wanted / far_off) return;
-  report.warnings.push_back("the vertices are " + short_number(metres) +
-                            " m from the centre on the mean, the radius of the body is " +
-                            short_number(wanted) + " m: the mesh is in another unit (--unit)");
+  if (metres < far_off * wanted && metres > wanted / far_off) return "";
+  return "the vertices are " + short_number(metres) +
+         " m from the centre on the mean, the radius of the body is " + short_number(wanted) +
+         " m: the mesh is in another unit (--unit)";
 }
 
 /// With all digits: centres may differ in the last.
@@ -30,12 +30,11 @@ std::string point_text(const Vector3& p) {
   return "(" + shortest(p.x()) + ", " + shortest(p.y()) + ", " + shortest(p.z()) + ")";
 }
 
-void warn_of_centre(const MappedMesh& source, const Vector3& centre, BakeReport& report) {
+std::string centre_line(const MappedMesh& source, const Vector3& centre) {
   const std::optional<Planetocentric> radial = planetocentric(source.provenance());
-  if (!radial || is_about(*radial, centre, source.mesh())) return;
-  report.warnings.push_back("longitudes and latitudes are the map's, which is radial about " +
-                            point_text(radial->centre) + ", not about the body's centre, " +
-                            point_text(centre));
+  if (!radial || is_about(*radial, centre, source.mesh())) return "";
+  return "longitudes and latitudes are the map's, which is radial about " +
+         point_text(radial->centre) + ", not about the body's centre, " + point_text(centre);
 }
 
 void warn_of_stale(const std::string& image, BakeReport& report) {
@@ -46,6 +45,14 @@ void warn_of_stale(const std::string& image, BakeReport& report) {
 }
 
 }  // namespace
+
+std::vector<std::string> doubts_about_body(const MappedMesh& source, const Body& body,
+                                           const Vector3& centre) {
+  std::vector<std::string> lines = {centre_line(source, centre),
+                                    unit_line(mean_radius(source.mesh(), centre), body)};
+  std::erase(lines, "");
+  return lines;
+}
 
 void add_sidecars(const std::vector<PlannedImage>& images, const MappedMesh& source,
                   const BakeScene& scene, const BakeSettings& settings, PendingFiles& files,
@@ -59,8 +66,8 @@ void add_sidecars(const std::vector<PlannedImage>& images, const MappedMesh& sou
   const CoordinateSystem system = coordinate_system(body, body_places(source, scene, settings),
                                                     stem_of(source_name(source, settings)));
   report.coordinate_system = system.name;
-  warn_of_centre(source, centre, report);
-  warn_of_unit(mean_radius(source.mesh(), centre), body, report);
+  for (std::string& line : doubts_about_body(source, body, centre))
+    report.warnings.push_back(std::move(line));
   for (size_t i = 0; i < images.size(); ++i) {
     const std::string& path = images[i].request.path;
     if (is_stream(path) || !has_sidecar(path)) {

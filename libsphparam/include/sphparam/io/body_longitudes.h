@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "sphparam/io/mapped_mesh.h"
+
+namespace sphparam {
+
+/// How far a map's longitudes and latitudes are from those of the body that the mesh is, seen from
+/// the centre, why, and what would have them; empty where they are the same, and, of bodies only,
+/// of what is none: neither mapped as one, nor star-shaped but for little.
+/// Cost: two passes, and a certificate of what is not mapped as a body where it is asked for.
+std::string longitudes_off(const MappedMesh& mapped, const Vector3& centre, bool of_bodies_only,
+                           int threads);
+
+}  // namespace sphparam
