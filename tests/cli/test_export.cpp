@@ -604,7 +604,8 @@ TEST_CASE("export: images that an .obj has no place for are told, and not counte
              Contains("warning: not carried: the image orm: ") && Contains("  1 image of "));
 }
 
-TEST_CASE("export: an .obj takes no normal map with y down; of a folder it is left out and told") {
+TEST_CASE(
+    "export: an .obj takes no normal map with y down, and of a folder it is left out and told") {
   const Egg egg;
   const std::string normals = egg.folder / "in/egg_normal-tangent.png";
   REQUIRE(egg.run("a.obj").code == 0);

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <queue>
 
-#include "curvilinear/middle_poles.h"
+#include "middle_poles.h"
 #include "sphparam/curvilinear/poles.h"
 #include "support/test_meshes.h"
 

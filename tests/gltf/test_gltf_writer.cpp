@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "charted.h"
+#include "gltf/format/packing.h"
 #include "gltf/images/material_images.h"
 #include "gltf/images/variant_images.h"
-#include "gltf/packing.h"
 #include "gltf/shape.h"
 #include "gltf/written_check.h"
 #include "io/uri.h"

@@ -5,7 +5,7 @@
 #include <tuple>
 #include <vector>
 
-#include "gltf/packing.h"
+#include "gltf/format/packing.h"
 #include "gltf/set_apart.h"
 
 namespace sphparam::tests {

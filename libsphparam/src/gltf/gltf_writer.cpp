@@ -5,9 +5,9 @@
 #include <set>
 #include <stdexcept>
 
-#include "gltf/glb_container.h"
+#include "gltf/format/glb_container.h"
+#include "gltf/format/packing.h"
 #include "gltf/images/image_kind.h"
-#include "gltf/packing.h"
 #include "io/attributes/authorship.h"
 #include "io/attributes/finish_terms.h"
 #include "io/uri.h"

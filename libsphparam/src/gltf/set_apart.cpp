@@ -15,7 +15,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "gltf/packing.h"
+#include "gltf/format/packing.h"
 
 namespace sphparam {
 

@@ -1,6 +1,6 @@
 #include "gltf/stored_chart.h"
 
-#include "gltf/packing.h"
+#include "gltf/format/packing.h"
 #include "sphere/planar_orientation.h"
 
 namespace sphparam {

@@ -3,7 +3,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "gltf/packing.h"
+#include "gltf/format/packing.h"
 #include "io/files/read_back.h"
 #include "io/formats/gltf/gltf_reader.h"
 #include "sphparam/io/mesh_reader.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "curvilinear/middle_poles.h"
+#include "middle_poles.h"
 
 namespace sphparam {
 namespace {

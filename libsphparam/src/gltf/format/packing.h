@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <span>
 
-#include "gltf/buffer_views.h"
+#include "gltf/format/buffer_views.h"
 #include "sphparam/gltf/asset.h"
 
 namespace sphparam {

@@ -1,4 +1,4 @@
-#include "gltf/packing.h"
+#include "gltf/format/packing.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,4 +1,4 @@
-#include "gltf/glb_container.h"
+#include "gltf/format/glb_container.h"
 
 #include <cstdint>
 #include <limits>

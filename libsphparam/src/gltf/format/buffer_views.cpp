@@ -1,4 +1,4 @@
-#include "gltf/buffer_views.h"
+#include "gltf/format/buffer_views.h"
 
 #include "gltf/meshopt_encoding.h"
 

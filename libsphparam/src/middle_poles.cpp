@@ -1,4 +1,4 @@
-#include "curvilinear/middle_poles.h"
+#include "middle_poles.h"
 
 #include <algorithm>
 #include <optional>
