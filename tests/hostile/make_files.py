@@ -86,10 +86,11 @@ def make_obj():
     bad("normal_before_first", "vn 0 0 1\n" + changed(t, "f 1 3 2", "f 1//-2 3 2"), "relative normal index -2")
     bad("slash_and_word", changed(t, "f 1 3 2", "f 1/x 3 2"), "expected an index")
     for i, word in enumerate(("nan", "-nan", "inf", "-INF", "infinity", "NaN(1)", "0x10", "0x1p3", "1e", "1e+", "--1", "+-1", "1..2",
-                                 "1_000", "1d5", "$", "1e99999", "-1e309", "'1'", "1f")):
+                                 "1_000", "1q5", "$", "1e99999", "-1e309", "'1'", "1f")):
         bad("number_%d" % i, changed(t, "v 1 1 1", "v 1 1 " + word), ":1: expected a number")
     for i, word in enumerate(("-1.#IND", "1.#INF", "1.#QNAN0", "1.#SNAN")):
         bad("microsoft_%d" % i, changed(t, "v 1 1 1", "v 1 1 " + word), ":1: expected a number, found '%s'" % word)
+    ok("exponents_of_fortran", t.replace("v 1 1 1", "v 1D0 10d-1 .1D+1"))
     ok("comment_at_a_number", changed(t, "v 1 1 1", "v 1 1 1#INFO"))
     bad("decimal_comma", changed(t, "v 1 1 1", "v 1,0 1,0 1,0"), "decimal point")
     bad("comma_separated", changed(t, "v 1 1 1", "v 1,1,1"), "decimal point")
