@@ -4,6 +4,9 @@
 
 namespace sphparam {
 
+/// Alike for any width of vectors.
+using Matrix4 = Eigen::Matrix<double, 4, 4, Eigen::DontAlign>;
+
 /// x ↦ scale · rotation · x + shift.
 struct Similarity {
   double scale = 1;
@@ -12,8 +15,8 @@ struct Similarity {
 
   Vector3 operator()(const Vector3& x) const { return scale * (rotation * x) + shift; }
   /// What takes (x, y, z, 1), a column, there.
-  Eigen::Matrix4d matrix() const {
-    Eigen::Matrix4d result = Eigen::Matrix4d::Identity();
+  Matrix4 matrix() const {
+    Matrix4 result = Matrix4::Identity();
     result.topLeftCorner<3, 3>() = scale * rotation;
     result.topRightCorner<3, 1>() = shift;
     return result;
