@@ -65,6 +65,18 @@ def _numpy(build):
     return "numpy<2" if (int(version[1]), int(version[2])) < (2, 12) else "numpy"
 
 
+def _packed_tightly(wheel_file):
+    """Wheels as small as deflate makes them, which WheelFile has no word for."""
+
+    class Tight(wheel_file):
+        def writestr(self, zinfo_or_arcname, data, compress_type=None):
+            if hasattr(zinfo_or_arcname, "_compresslevel"):
+                zinfo_or_arcname._compresslevel = 9  # pylint: disable=protected-access
+            super().writestr(zinfo_or_arcname, data, compress_type)
+
+    return Tight
+
+
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     """The wheel's name; it lies in `wheel_directory`."""
     from wheel.wheelfile import WheelFile
@@ -85,7 +97,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
         (about / "WHEEL").write_text(
             f"Wheel-Version: 1.0\nGenerator: sphparam\nRoot-Is-Purelib: false\nTag: {tag}\n"
         )
-        with WheelFile(Path(wheel_directory) / f"{name}-{tag}.whl", "w") as wheel:
+        with _packed_tightly(WheelFile)(Path(wheel_directory) / f"{name}-{tag}.whl", "w") as wheel:
             wheel.write_files(str(staged))
     return f"{name}-{tag}.whl"
 

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <utility>
 
 #include "elementary.h"
 #include "number_text.h"
@@ -86,12 +87,8 @@ double degrees_of(const Eigen::Matrix3d& turn) {
 }
 
 Json alignment_json(const Alignment& alignment) {
-  const Eigen::Matrix4d matrix = alignment.motion.matrix();
-  Json rows = Json::array();
-  for (int i = 0; i < 4; ++i)
-    rows.push_back({matrix(i, 0), matrix(i, 1), matrix(i, 2), matrix(i, 3)});
   return {{"kind", alignment.scaled ? "similarity" : "rigid"},
-          {"matrix", rows},
+          {"matrix", alignment.motion.matrix()},
           {"scale", alignment.motion.scale},
           {"degrees", degrees_of(alignment.motion.rotation)},
           {"start", name_of(alignment.start)},
@@ -105,7 +102,6 @@ Json alignment_json(const Alignment& alignment) {
 std::string alignment_lines(const std::optional<Alignment>& alignment) {
   if (!alignment) return "";
   const Similarity& motion = alignment->motion;
-  const Eigen::Matrix4d matrix = motion.matrix();
   std::string text =
       "2 is put onto 1: turned by " + short_number(degrees_of(motion.rotation), 4) + "°" +
       (alignment->scaled ? ", scaled by " + short_number(motion.scale, 6) : "") +
@@ -113,8 +109,9 @@ std::string alignment_lines(const std::optional<Alignment>& alignment) {
       (alignment->start == AlignmentStart::AsTheyAre ? "where it was" : name_of(alignment->start)) +
       "; RMS " + short_number(alignment->rms, 4) + " of the " + percent(alignment->kept) +
       " of samples within " + short_number(alignment->reach, 4) + "; its matrix:\n";
-  for (int i = 0; i < 4; ++i) {
-    for (int k = 0; k < 4; ++k) text += (k > 0 ? " " : "  ") + shortest(matrix(i, k));
+  for (const auto& row : motion.matrix()) {
+    const char* before = "  ";
+    for (const double number : row) text += std::exchange(before, " ") + shortest(number);
     text += "\n";
   }
   return text + "\n";

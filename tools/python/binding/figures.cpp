@@ -42,10 +42,11 @@ void turn_as(const MeshFile& first, const MeshFile& second, TriangleMesh& second
 
 py::object as_object(const std::optional<Alignment>& alignment) {
   if (!alignment) return py::none();
-  const Eigen::Matrix4d matrix = alignment->motion.matrix();
+  const auto matrix = alignment->motion.matrix();
   py::array_t<double> rows({4, 4});
   for (int i = 0; i < 4; ++i)
-    for (int k = 0; k < 4; ++k) rows.mutable_at(i, k) = matrix(i, k);
+    for (int k = 0; k < 4; ++k)
+      rows.mutable_at(i, k) = matrix[static_cast<size_t>(i)][static_cast<size_t>(k)];
   return py::make_tuple(rows, alignment->motion.scale, name_of(alignment->start), alignment->rms,
                         alignment->kept, alignment->reach, alignment->iterations);
 }

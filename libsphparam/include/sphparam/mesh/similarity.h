@@ -1,11 +1,11 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 #include "sphparam/mesh/triangle_mesh.h"
 
 namespace sphparam {
-
-/// Alike for any width of vectors.
-using Matrix4 = Eigen::Matrix<double, 4, 4, Eigen::DontAlign>;
 
 /// x ↦ scale · rotation · x + shift.
 struct Similarity {
@@ -14,12 +14,16 @@ struct Similarity {
   Vector3 shift = Vector3::Zero();
 
   Vector3 operator()(const Vector3& x) const { return scale * (rotation * x) + shift; }
-  /// What takes (x, y, z, 1), a column, there.
-  Matrix4 matrix() const {
-    Matrix4 result = Matrix4::Identity();
-    result.topLeftCorner<3, 3>() = scale * rotation;
-    result.topRightCorner<3, 1>() = shift;
-    return result;
+  /// The rows of what takes (x, y, z, 1), a column, there.
+  std::array<std::array<double, 4>, 4> matrix() const {
+    std::array<std::array<double, 4>, 4> rows = {};
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j)
+        rows[static_cast<size_t>(i)][static_cast<size_t>(j)] = scale * rotation(i, j);
+      rows[static_cast<size_t>(i)][3] = shift[i];
+    }
+    rows[3][3] = 1;
+    return rows;
   }
 };
 
