@@ -133,6 +133,10 @@ TEST_CASE("simplify: what cannot be coarser is left out, and numbers must fall")
   CHECK_THROWS_AS(simplified_meshes(least, Longs{3}), std::invalid_argument);
   CHECK_THROWS_AS(simplified_meshes(least, Longs{8, 8}), std::invalid_argument);
   const MappedMesh egg = mapped_egg(egg_file());
+  const std::vector<MappedMesh> one =
+      simplified_meshes(egg, Longs{egg.mesh().face_count() + 10, egg.mesh().face_count(), 100});
+  REQUIRE(one.size() == 1);
+  CHECK(one[0].mesh().face_count() == 100);
   CHECK_THROWS_AS(simplified_meshes(egg, Longs{100},
                                     {.progress = [](std::string_view, double) { return false; }}),
                   Cancelled);

@@ -125,7 +125,8 @@ void declare_remesh_options(Declaration& command, RemeshArguments& arguments) {
             "of the grid's vertices (default: the mesh, and what becomes of it)")
       .number("--lambda", arguments.lambda, "NUMBER", lambdas,
               "Weight of area against angle in a map that is made or adapted here, " +
-                  lambdas.text() + ": less has fewer faces that cross, more is nearer")
+                  lambdas.text() +
+                  ": less has fewer faces that cross, and is farther from the mesh")
       .flag("--adaptive", arguments.adaptive,
             "Relax the map first, so that where the surface bends it gets more vertices");
   declare_subdivision(command, arguments);

@@ -211,10 +211,17 @@ class Exporter {
   }
 
   void note_levels(const MappedMesh& mapped, const std::vector<MappedMesh>& coarser) {
-    record_.lods_wanted = arguments_.levels();
+    auto wanted = arguments_.lod_faces;
+    const auto finer = static_cast<int>(
+        std::erase_if(wanted, [&](auto count) { return count >= mapped.mesh().face_count(); }));
+    if (finer > 0)
+      session_.console.warning("--lod-faces: " + counted(finer, "level is", "levels are") +
+                               " left out: the mesh has no more than " +
+                               counted(mapped.mesh().face_count(), "triangle"));
+    record_.lods_wanted = arguments_.levels() - finer;
     record_.lods = static_cast<int>(coarser.size());
-    for (std::size_t i = 0; i < std::min(coarser.size(), arguments_.lod_faces.size()); ++i)
-      tell_count(coarser[i].mesh().face_count(), arguments_.lod_faces[i]);
+    for (std::size_t i = 0; i < std::min(coarser.size(), wanted.size()); ++i)
+      tell_count(coarser[i].mesh().face_count(), wanted[i]);
     if (record_.lods == record_.lods_wanted) return;
     const MappedMesh& last = coarser.empty() ? mapped : coarser.back();
     session_.console.warning(

@@ -389,9 +389,10 @@ class Simplifier {
   Places places_;
   std::vector<std::vector<Face>> faces_;  // about each vertex; none: gone
   std::vector<Quadric> quadrics_;
-  std::vector<int> ages_;             // how often a vertex took another in
-  std::vector<char> stays_, on_rim_;  // on_rim_: how many edges of rims it has
-  std::vector<int> stamps_;           // of the visit of neighbours that came to a vertex last
+  std::vector<int> ages_;  // how often a vertex took another in
+  std::vector<char> stays_;
+  std::vector<int> on_rim_;  // how many edges of rims it has
+  std::vector<int> stamps_;  // of the visit of neighbours that came to a vertex last
   int last_stamp_ = 0;
   long left_;
   std::vector<Collapse> queue_;  // a heap
@@ -414,6 +415,7 @@ std::vector<MappedMesh> simplified_meshes(const MappedMesh& source, std::span<co
   Simplifier simplifier(source);
   for (const long wanted : triangles) {
     const long before = simplifier.left();
+    if (wanted >= before) continue;
     simplifier.run(wanted, options.progress);
     if (simplifier.left() >= before) break;
     meshes.push_back(simplifier.result(source, options.threads));

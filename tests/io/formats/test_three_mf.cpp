@@ -27,7 +27,7 @@ std::string tetra(const std::string& attributes_of_first = "") {
 
 std::string model(const std::string& resources, const std::string& build,
                   const std::string& more = "") {
-  return "<?xml version=\"1.0\"?><model unit=\"inch\" xmlns=\"c\" xmlns:m=\"m\" xmlns:p=\"p\">" +
+  return "<?xml version=\"1.0\"?><model unit=\"inch\" xmlns=\"c\" xmlns:m=\"m\" xmlns:p=\"p\" xmlns:prod=\"p\">" +
          more + "<resources>" + resources + "</resources><build>" + build + "</build></model>";
 }
 
@@ -85,7 +85,7 @@ TEST_CASE("three_mf: components are placed within one another, also those of oth
                 "</object>",
             "");
   const std::string root = model(
-      "<object id=\"1\"><components><component p:path=\"/3D/Objects/A.model\" objectid=\"3\" "
+      "<object id=\"1\"><components><component prod:path=\"/3D/Objects/A.model\" objectid=\"3\" "
       "transform=\"0 1 0 -1 0 0 0 0 1 5 0 0\"/><component p:path=\"/3D/Objects/A.model\" "
       "objectid=\"4\"/></components></object>",
       "<item objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 0 0 7\"/>");
@@ -197,6 +197,14 @@ TEST_CASE("three_mf: what is wrong is said, with the part and its line") {
   refused(model("<m:colorgroup id=\"2\"><m:color color=\"red\"/></m:colorgroup>" + one_object,
                 one_item),
           "expected a colour as #RRGGBB, found 'red'");
+  refused(model("<m:colorgroup id=\"2\"><m:color color=\"#000000\"/></m:colorgroup><basematerials "
+                "id=\"2\"/>" +
+                    one_object,
+                one_item),
+          "two groups 2");
+  refused(model(one_object,
+                "<item objectid=\"7\" transform=\"1e308 0 0 1e308 1 0 1e308 0 1 1e308 0 0\"/>"),
+          "not a finite number where it is placed");
   refused(model("<m:colorgroup id=\"2\"/><object id=\"7\" pid=\"2\">" + tetra() + "</object>",
                 one_item),
           "entry 0 of a group of 0 colours");

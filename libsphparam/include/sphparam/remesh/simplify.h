@@ -17,13 +17,14 @@ struct SimplifyOptions {
 /// are collapsed, those first that change the surface and where an image lies on it least. Vertices
 /// are some of the mesh's, with their points on the sphere, their numbers and colours, so that an
 /// image lies at them as it does on the mesh; comments, name and provenance stay, normals, texture
-/// coordinates and numbers of faces do not. Fillers stay fillers, and their rims where they are.
-/// Vertices at the poles stay.
+/// coordinates and numbers of faces do not. Fillers stay fillers, and their rims where they are,
+/// until a hole has three edges, which may close. Vertices at the poles stay.
 ///
 /// No collapse folds a triangle of the map, by exact signs, nor, as long as others are left, turns
 /// one over in space or makes a needle of it; a surface may yet cross itself (`faces_in_space`).
 /// Each is nested in the one before. Where no edge can go any more there are more triangles than
-/// wanted; what is no coarser than the one before is left out, and all after it.
+/// wanted; what is no coarser than the one before is left out, and all after it, but for numbers
+/// that are not below what the mesh has, which are passed over.
 ///
 /// Source: quadrics of Garland and Heckbert, "Simplifying surfaces with color and texture using
 /// quadric error metrics", 1998, of places and points on the sphere; our own are the exact signs.

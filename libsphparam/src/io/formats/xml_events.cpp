@@ -110,6 +110,14 @@ std::string_view XmlAttributes::value(std::string_view name) const {
   return {};
 }
 
+std::string_view XmlAttributes::value_in_any_space(std::string_view name) const {
+  for (const char** at = attributes_; *at; at += 2) {
+    const std::string_view full = at[0];
+    if (full.substr(full.find(':') + 1) == name) return at[1];  // npos + 1 is 0
+  }
+  return {};
+}
+
 std::size_t read_xml(std::string_view bytes, const std::string& name, XmlEvents& events) {
   return Parser(bytes, name, events).parse();
 }

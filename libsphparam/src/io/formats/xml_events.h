@@ -12,6 +12,8 @@ class XmlAttributes {
   /// Empty where there is none of this name.
   std::string_view value(std::string_view name) const;
   bool has(std::string_view name) const;
+  /// Of a name behind any prefix, as p:path is of path.
+  std::string_view value_in_any_space(std::string_view name) const;
 
  private:
   const char** attributes_;

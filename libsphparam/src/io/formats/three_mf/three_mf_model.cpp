@@ -210,7 +210,7 @@ class ModelReader final : public XmlEvents {
   // --- Where objects are put ---
 
   ThreeMfPart part(const XmlAttributes& attributes) const {
-    std::string path(attributes.value("p:path"));
+    std::string path(attributes.value_in_any_space("path"));
     return {std::move(path), number<std::int64_t>(attributes, "objectid"), place(attributes)};
   }
 
@@ -232,7 +232,10 @@ class ModelReader final : public XmlEvents {
   // --- Materials and colours ---
 
   void start_group(std::string_view element, const XmlAttributes& attributes) {
-    group_ = &model_.groups[number<std::int64_t>(attributes, "id")];
+    const auto id = number<std::int64_t>(attributes, "id");
+    const auto [at, is_new] = model_.groups.try_emplace(id);
+    if (!is_new) fail("there are two groups " + std::to_string(id));
+    group_ = &at->second;
     group_->is_material = element == "basematerials";
   }
 
@@ -249,7 +252,7 @@ class ModelReader final : public XmlEvents {
     }
     if (!is_colour) fail("expected a colour as #RRGGBB, found " + quoted(text));
     group_->colours.push_back(colour);
-    if (group_->is_material) group_->names.push_back(one_line(attributes.value("name")));
+    group_->names.push_back(one_line(attributes.value("name")));
   }
 
   const std::string& name_;

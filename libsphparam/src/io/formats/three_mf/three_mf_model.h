@@ -40,7 +40,7 @@ struct ThreeMfObject {
 /// Colours, with names where they are materials'.
 struct ThreeMfGroup {
   bool is_material = false;
-  std::vector<std::string> names;                    // of materials, as many as colours
+  std::vector<std::string> names;                    // as many; of colours empty
   std::vector<std::array<std::uint8_t, 4>> colours;  // sRGB and alpha
 };
 

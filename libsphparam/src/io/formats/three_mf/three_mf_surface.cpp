@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "io/files/non_finite_advice.h"
+
 namespace sphparam {
 
 void ThreeMfSurface::require_room(std::size_t vertices, std::size_t triangles) const {
@@ -28,6 +30,9 @@ void ThreeMfSurface::append(const ThreeMfObject& object, const ThreeMfGroups& gr
   for (std::size_t i = 0; i < object.positions.size(); i += 3) {
     const Eigen::RowVector3d given = Eigen::Map<const Eigen::RowVector3d>(&object.positions[i]);
     const Eigen::RowVector3d placed = given * place.topRows<3>() + place.row(3);
+    if (!options_.non_finite && !placed.allFinite())
+      throw ReadError(
+          name_, "a coordinate is not a finite number where it is placed" + non_finite_advice());
     positions_.insert(positions_.end(), placed.begin(), placed.end());
   }
   const bool is_mirrored = place.topRows<3>().determinant() < 0;
