@@ -121,15 +121,17 @@ void refuse_combinations(const ExportArguments& a, const std::string& extension)
   refuse(e.morph != Morph::None && e.shape != ShapeKind::Mesh,
          "--morph starts from the mesh: leave out --shape");
   refuse(a.lods > 0 && !a.lod_faces.empty(), "--lods and --lod-faces: one of them says how many");
+  const std::string levels = a.lod_faces.empty() ? "--lods" : "--lod-faces";
   refuse(e.morph != Morph::None && a.levels() > 0,
-         "--lods are of meshes that do not change: leave out --morph");
-  refuse(e.keep_topology && a.levels() > 0, "--lods are new meshes: leave out --keep-topology");
-  refuse(e.shape != ShapeKind::Mesh && a.levels() > 0, "--lods are of the mesh: leave out --shape");
+         levels + " are of meshes that do not change: leave out --morph");
+  refuse(e.keep_topology && a.levels() > 0, levels + " are new meshes: leave out --keep-topology");
+  refuse(e.shape != ShapeKind::Mesh && a.levels() > 0,
+         levels + " are of the mesh: leave out --shape");
   refuse(e.source_uv && a.levels() > 0,
-         "--lods have no texture coordinates of the mesh: leave out --source-uv");
+         levels + " have no texture coordinates of the mesh: leave out --source-uv");
   refuse(a.embedded && extension != ".gltf", "--embedded is for .gltf; a .glb is one file anyway");
   refuse(a.levels() > 0 && is_stream(a.output) && a.lod_style == LodStyle::Files,
-         "--lods are files: give -o a name");
+         levels + " are files: give -o a name");
   refuse(!a.scalar.empty() && (!look.texture.empty() || !look.folder.empty()),
          "--scalar is colours of its own: leave out --image and --images");
   refuse(a.range && a.scalar.empty(), "--range is the scale of --scalar: name a number a vertex");

@@ -169,8 +169,7 @@ void tell_hemispheres(const GroupArguments& arguments, const MappedMesh& referen
                 (left.size() > 1 ? ", …" : "") + ") and " + std::to_string(right.size()) +
                 " of CortexRight (" + *right.begin() + (right.size() > 1 ? ", …" : "") +
                 ") in one group: they are mirror images, which it takes for shapes that differ; "
-                "--mirror takes "
-                "those of one side as their mirror images"});
+                "--mirror takes those of one side as their mirror images"});
 }
 
 std::vector<bool> mapped_now(const std::vector<MappedMesh>& shapes) {

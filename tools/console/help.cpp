@@ -34,8 +34,7 @@ std::string footer() {
   std::string text =
       "Files: `-` is standard input or output. Messages go to standard error.\n"
       "-q, -v, --fail-on-warnings, --progress, --threads, --max-memory and --limit may stand "
-      "before the "
-      "subcommand too.\n"
+      "before the subcommand too.\n"
       "\n"
       "Exit codes:\n";
   for (const ExitMeaning& exit : exit_meanings) {

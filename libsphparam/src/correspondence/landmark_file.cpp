@@ -69,7 +69,9 @@ void LandmarkFile::parse(std::string_view text, const std::string& name) {
     };
     VertexPlace first = place(), second = place();
     if (!scanner.at_line_end())
-      scanner.fail("expected a vertex of the first mesh and one of the second, then nothing");
+      scanner.fail(
+          "expected a vertex of the first mesh and one of the second, or a point of each, in six "
+          "numbers, then nothing");
     lines_.push_back({std::move(first), std::move(second), scanner.line_number()});
   }
   if (lines_.empty()) {

@@ -154,8 +154,7 @@ std::string what_helps(const FacesInSpace& found, const MappedMesh& source,
              ? "a map bends at the sides of large triangles: map the mesh with --max-edge " +
                    short_number(enough, 2)
              : "on a finer grid, or with a smaller --lambda of the map, they are a smaller share "
-               "of "
-               "it";
+               "of it";
 }
 
 /// "the mesh itself has 89 pairs that cross, "
