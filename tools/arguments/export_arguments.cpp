@@ -104,7 +104,7 @@ void declare_buffers(Declaration& command, ExportArguments& arguments) {
               "Files of their own, NAME_lod1 …, or one file (default: files)");
 }
 
-void refuse(bool wrong, const char* message) {
+void refuse(bool wrong, const std::string& message) {
   if (wrong) throw UsageMistake(message);
 }
 
