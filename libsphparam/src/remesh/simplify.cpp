@@ -11,9 +11,10 @@
 #include <numbers>
 #include <optional>
 #include <stdexcept>
-#include <tuple>
 #include <utility>
 
+#include "edge_collapse.h"
+#include "mesh/triangle_geometry.h"
 #include "mesh/unit_size.h"
 #include "sphparam/io/fillers.h"
 #include "sphparam/sphere/orientation.h"
@@ -79,11 +80,6 @@ Quadric of_rim(const Place& p, const Place& q) {
   return length > 0 ? Quadric::across(p, {(q - p) / length}, length * length) : Quadric();
 }
 
-double quality(const Vector3& a, const Vector3& b, const Vector3& c) {
-  const double lengths = (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();
-  return lengths > 0 ? 2 * std::sqrt(3.0) * (b - a).cross(c - a).norm() / lengths : 0;
-}
-
 /// What a triangle that stays must be in space after a collapse.
 struct Wanted {
   double least_cosine;   // of its normals before and after
@@ -92,16 +88,6 @@ struct Wanted {
 
 /// In this order, as long as there are too many triangles. The last wants nothing.
 constexpr std::array<Wanted, 3> wanted_in_turn = {{{0.5, 0.1}, {0, 0}, {-2, 0}}};
-
-struct Collapse {
-  double cost;
-  Vertex from, to;  // `from` goes
-  int age;          // of both ends, added up
-
-  bool operator<(const Collapse& other) const {  // the cheapest comes first
-    return std::tie(other.cost, other.from, other.to) < std::tie(cost, from, to);
-  }
-};
 
 class Simplifier {
  public:
@@ -178,18 +164,11 @@ class Simplifier {
     const TriangleMesh& mesh = unit ? unit->mesh : source.mesh();
     const Eigen::RowVector3d middle =
         (mesh.positions.colwise().minCoeff() + mesh.positions.colwise().maxCoeff()) / 2;
-    double area = 0;
-    for (Face f = 0; f < mesh.face_count(); ++f) {
-      const Vector3 p = mesh.position(mesh.triangles(f, 0));
-      area += (mesh.position(mesh.triangles(f, 1)) - p)
-                  .cross(mesh.position(mesh.triangles(f, 2)) - p)
-                  .norm() /
-              2;
-    }
     Places places(mesh.vertex_count(), 6);
     places.leftCols(3) = mesh.positions.rowwise() - middle;
-    places.rightCols(3) =
-        weight_of_sphere * std::sqrt(area / (4 * std::numbers::pi)) * source.map().points;
+    places.rightCols(3) = weight_of_sphere *
+                          std::sqrt(surface_area(mesh) / (4 * std::numbers::pi)) *
+                          source.map().points;
     return places;
   }
 
@@ -263,19 +242,19 @@ class Simplifier {
         report(progress, "simplify",
                static_cast<double>(all - left_) / static_cast<double>(all - triangles));
       std::pop_heap(queue_.begin(), queue_.end());
-      const Collapse next = queue_.back();
+      const EdgeCollapse next = queue_.back();
       queue_.pop_back();
       if (is_current(next) && keeps_topology(next) && keeps_faces(next, wanted)) collapse(next);
     }
   }
 
-  bool is_current(const Collapse& edge) const {
+  bool is_current(const EdgeCollapse& edge) const {
     return !faces_[at(edge.from)].empty() && !faces_[at(edge.to)].empty() &&
            ages_[at(edge.from)] + ages_[at(edge.to)] == edge.age;
   }
 
   /// The link condition; along a rim the edge must be of it. A tetrahedron stays.
-  bool keeps_topology(const Collapse& edge) {
+  bool keeps_topology(const EdgeCollapse& edge) {
     if (left_ <= 4) return false;
     for_each_neighbour(edge.from, [](Vertex) {});
     const int of_from = last_stamp_;
@@ -292,7 +271,7 @@ class Simplifier {
     }
   }
 
-  bool is_of_rim(const Collapse& edge) const {
+  bool is_of_rim(const EdgeCollapse& edge) const {
     int fillers = 0, faces = 0;
     for (const Face f : faces_[at(edge.from)]) {
       if (!has(f, edge.to)) continue;
@@ -302,13 +281,13 @@ class Simplifier {
     return faces == 2 && fillers == 1;
   }
 
-  bool keeps_faces(const Collapse& edge, const Wanted& wanted) const {
+  bool keeps_faces(const EdgeCollapse& edge, const Wanted& wanted) const {
     return std::ranges::all_of(faces_[at(edge.from)], [&](Face f) {
       return has(f, edge.to) || keeps_face(f, edge, wanted);
     });
   }
 
-  bool keeps_face(Face f, const Collapse& edge, const Wanted& wanted) const {
+  bool keeps_face(Face f, const EdgeCollapse& edge, const Wanted& wanted) const {
     std::array<Vertex, 3> now = {triangles_(f, 0), triangles_(f, 1), triangles_(f, 2)};
     const std::array<Vertex, 3> old = now;
     std::ranges::replace(now, edge.from, edge.to);
@@ -320,12 +299,12 @@ class Simplifier {
     const Vector3 a = in_space(old[0]), b = in_space(old[1]), c = in_space(old[2]);
     const Vector3 p = in_space(now[0]), q = in_space(now[1]), r = in_space(now[2]);
     const Vector3 before = (b - a).cross(c - a), after = (q - p).cross(r - p);
-    const double good = quality(p, q, r);
+    const double good = triangle_quality(p, q, r);
     return before.dot(after) >= wanted.least_cosine * before.norm() * after.norm() &&
-           (good >= wanted.least_quality || good >= quality(a, b, c));
+           (good >= wanted.least_quality || good >= triangle_quality(a, b, c));
   }
 
-  void collapse(const Collapse& edge) {
+  void collapse(const EdgeCollapse& edge) {
     quadrics_[at(edge.to)] += quadrics_[at(edge.from)];
     std::vector<Face>& faces = faces_[at(edge.to)];
     for (const Face f : faces_[at(edge.from)]) {
@@ -358,7 +337,7 @@ class Simplifier {
       }
     });
     if (std::ssize(queue_) <= 6 * left_) return;  // twice as many as there are half-edges
-    std::erase_if(queue_, [&](const Collapse& edge) { return !is_current(edge); });
+    std::erase_if(queue_, [&](const EdgeCollapse& edge) { return !is_current(edge); });
     std::make_heap(queue_.begin(), queue_.end());
   }
 
@@ -395,7 +374,7 @@ class Simplifier {
   std::vector<int> stamps_;  // of the visit of neighbours that came to a vertex last
   int last_stamp_ = 0;
   long left_;
-  std::vector<Collapse> queue_;  // a heap
+  std::vector<EdgeCollapse> queue_;  // a heap
 };
 
 void require_falling(std::span<const long> triangles) {

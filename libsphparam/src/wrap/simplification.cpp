@@ -8,10 +8,10 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "edge_collapse.h"
 #include "mesh/unit_size.h"
 #include "wrap/quadric.h"
 
@@ -22,21 +22,6 @@ namespace {
 constexpr double least_cosine = 0.5;   // of a triangle's normal before and after a collapse
 constexpr double least_quality = 0.1;  // of a triangle that a collapse makes worse; 1: equilateral
 constexpr int steps_a_look = 4096;
-
-double quality(const Vector3& a, const Vector3& b, const Vector3& c) {
-  const double lengths = (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();
-  return lengths > 0 ? 2 * std::sqrt(3.0) * (b - a).cross(c - a).norm() / lengths : 0;
-}
-
-struct Collapse {
-  double cost;
-  Vertex from, to;  // `from` goes
-  int age;          // of both ends, added up
-
-  bool operator<(const Collapse& other) const {  // the cheapest comes first
-    return std::tie(other.cost, other.from, other.to) < std::tie(cost, from, to);
-  }
-};
 
 /// The corners of a mesh by their vertices, 3 f + k; faces may go and vertices become one.
 class Corners {
@@ -126,7 +111,7 @@ class Simplifier {
         report(progress, "simplify",
                static_cast<double>(all - left_) / static_cast<double>(all - triangles));
       std::pop_heap(queue_.begin(), queue_.end());
-      const Collapse next = queue_.back();
+      const EdgeCollapse next = queue_.back();
       queue_.pop_back();
       if (!is_current(next) || !keeps_topology(next)) continue;
       const Vector3 to = best_place(next.from, next.to);
@@ -183,7 +168,7 @@ class Simplifier {
     return quadric_of(a, b).lowest((place(a) + place(b)) / 2);
   }
 
-  Collapse collapse_of(Vertex a, Vertex b) {
+  EdgeCollapse collapse_of(Vertex a, Vertex b) {
     const Quadric both = quadric_of(a, b);
     return {both.at(both.lowest((place(a) + place(b)) / 2)), std::max(a, b), std::min(a, b),
             age(a) + age(b)};
@@ -195,17 +180,17 @@ class Simplifier {
       std::push_heap(queue_.begin(), queue_.end());
     });
     if (std::ssize(queue_) <= most_entries()) return;
-    std::erase_if(queue_, [&](const Collapse& edge) { return !is_current(edge); });
+    std::erase_if(queue_, [&](const EdgeCollapse& edge) { return !is_current(edge); });
     std::make_heap(queue_.begin(), queue_.end());
   }
 
-  bool is_current(const Collapse& edge) {
+  bool is_current(const EdgeCollapse& edge) {
     return !corners_.is_empty(edge.from) && !corners_.is_empty(edge.to) &&
            age(edge.from) + age(edge.to) == edge.age;
   }
 
   /// The link condition; a tetrahedron stays.
-  bool keeps_topology(const Collapse& edge) {
+  bool keeps_topology(const EdgeCollapse& edge) {
     if (left_ <= 4) return false;
     for_each_neighbour(edge.from, [](Vertex) {});
     const int of_from = last_stamp_;
@@ -217,7 +202,7 @@ class Simplifier {
     return common == 2;
   }
 
-  bool keeps_shape(const Collapse& edge, const Vector3& to) {
+  bool keeps_shape(const EdgeCollapse& edge, const Vector3& to) {
     return keeps_faces(edge.from, edge.to, to) && keeps_faces(edge.to, edge.from, to);
   }
 
@@ -236,12 +221,12 @@ class Simplifier {
     now[static_cast<size_t>(moved)] = to;
     const Vector3 before = (old[1] - old[0]).cross(old[2] - old[0]),
                   after = (now[1] - now[0]).cross(now[2] - now[0]);
-    const double good = quality(now[0], now[1], now[2]);
+    const double good = triangle_quality(now[0], now[1], now[2]);
     return before.dot(after) >= least_cosine * before.norm() * after.norm() &&
-           (good >= least_quality || good >= quality(old[0], old[1], old[2]));
+           (good >= least_quality || good >= triangle_quality(old[0], old[1], old[2]));
   }
 
-  void collapse(const Collapse& edge, const Vector3& to) {
+  void collapse(const EdgeCollapse& edge, const Vector3& to) {
     places_.row(edge.to) = to;
     quadrics_[static_cast<size_t>(edge.to)] += quadrics_[static_cast<size_t>(edge.from)];
     corners_.for_each_face(edge.from, [&](Face f, int) {
@@ -262,7 +247,7 @@ class Simplifier {
   std::vector<int> stamps_;  // of the visit of neighbours that came to a vertex last
   int last_stamp_ = 0;
   long left_;
-  std::vector<Collapse> queue_;  // a heap
+  std::vector<EdgeCollapse> queue_;  // a heap
 };
 
 }  // namespace
