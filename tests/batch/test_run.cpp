@@ -18,13 +18,21 @@ namespace sphparam::tests {
 
 namespace fs = std::filesystem;
 
-TEST_CASE("run: a task does its own items, and leaves no file open") {
-  const Folder folder;
+namespace {
+
+/// Three meshes in the folder, an item a task.
+BatchPlan plan_of_three(const Folder& folder) {
   fs::create_directories(folder / "in");
   for (const char* const name : {"a", "b", "c"})
     std::ofstream(folder / "in" + "/" + name + ".obj") << "v 0 0 0\n";
-  const BatchPlan plan =
-      make_plan(find_batch_inputs({folder / "in"}), {.steps = {{"map"}}, .chunk = 1});
+  return make_plan(find_batch_inputs({folder / "in"}), {.steps = {{"map"}}, .chunk = 1});
+}
+
+}  // namespace
+
+TEST_CASE("run: a task does its own items, and leaves no file open") {
+  const Folder folder;
+  const BatchPlan plan = plan_of_three(folder);
   const auto open_files = [] {
     return std::distance(fs::directory_iterator("/proc/self/fd"), fs::directory_iterator());
   };
@@ -42,11 +50,7 @@ TEST_CASE("run: a task does its own items, and leaves no file open") {
 
 TEST_CASE("run: where it ends with an error, nothing of it goes on unattended") {
   const Folder folder;
-  fs::create_directories(folder / "in");
-  for (const char* const name : {"a", "b", "c"})
-    std::ofstream(folder / "in" + "/" + name + ".obj") << "v 0 0 0\n";
-  const BatchPlan plan =
-      make_plan(find_batch_inputs({folder / "in"}), {.steps = {{"map"}}, .chunk = 1});
+  const BatchPlan plan = plan_of_three(folder);
   BatchRunOptions options{.run_step = [](const BatchStep&, const BatchStepSetting&) {
     ::pause();
     return 0;
