@@ -69,7 +69,8 @@ Range range_of(const std::vector<double>& values, size_t channels) {
 /// What floats are counted from, a channel; empty where that is 0, as where they hold all numbers.
 std::vector<double> offset_of(const std::vector<double>& values, const Range& range,
                               ImageDepth depth) {
-  const auto is_lost = [](double value) {
+  const auto is_lost = [depth](double value) {
+    if (depth == ImageDepth::Half) return std::abs(value) > most_half || to_half(value) != value;
     return static_cast<double>(static_cast<float>(value)) != value;
   };
   const bool needed = depth != ImageDepth::Uint16 && range.is_far() &&
