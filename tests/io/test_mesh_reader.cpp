@@ -40,6 +40,12 @@ TEST_CASE("mesh_reader: floats that are far from the origin for the size of a me
   CHECK(notes(ScalarType::Float64, 5.2e6, 2).empty());
   CHECK(notes(ScalarType::Float32, 5.2e6, 20).empty());
   CHECK(notes(ScalarType::Float32, 0, 2).empty());
+  MeshFile whole;  // metres, of which floats are half of one apart there: nothing was rounded
+  whole.mesh = icosphere(0);
+  whole.mesh.positions = (2 * whole.mesh.positions).array().round();
+  whole.mesh.positions.col(1).array() += 5.2e6;
+  whole.position_type = ScalarType::Float32;
+  CHECK(coarse_coordinates_among(read(serialise_ply(whole)).notes).empty());
 }
 
 TEST_CASE("mesh_reader: content decides the format before the name does") {

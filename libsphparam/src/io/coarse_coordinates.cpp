@@ -27,6 +27,14 @@ double float_step(const Box& box) {
   return std::ldexp(1.0, std::ilogb(most) - (std::numeric_limits<float>::digits - 1));
 }
 
+/// Whether some number as large as the largest ends in the last digit that a float has there: what
+/// all end before it is as exact as it was written, as whole metres are.
+bool use_last_digit(const Points& positions, double step) {
+  const double* const first = positions.data();
+  return std::any_of(first, first + positions.size(),
+                     [&](double value) { return std::fmod(std::abs(value) / step, 2) == 1; });
+}
+
 /// Of all sides of triangles. Faces name vertices that are there: readers see to it.
 double mean_edge(const TriangleMesh& mesh) {
   double sum = 0;
@@ -45,6 +53,7 @@ std::string coarse_coordinates(const TriangleMesh& mesh) {
   const Box box = surface_box(mesh);
   const double step = float_step(box), length = box.longest_side(), edge = mean_edge(mesh);
   if (!(edge > 0) || !std::isfinite(edge) || step <= much * edge) return {};
+  if (!use_last_digit(mesh.positions, step)) return {};
   return std::string(prefix) + short_number(step) + " apart, " + percent(step / length) +
          " of the mesh's length and " + percent(step / edge) +
          " of its mean edge: area, volume and distances are rough; export it in doubles, or moved "
