@@ -213,6 +213,8 @@ int to_glb(const char* kind, const char* bytes, size_t size, SphparamSceneSink g
   Assimp::Importer importer;
   // A scene without meshes is not to show its nodes in their stead.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
+  // Later versions of assimp turn the root of an FBX by themselves unless they are told so.
+  importer.SetPropertyBool("AI_CONFIG_IMPORT_FBX_IGNORE_UP_DIRECTION", true);
   const aiScene* const read = importer.ReadFileFromMemory(bytes, size, steps, kind);
   if (!read || !read->mRootNode) return complain(error, importer.GetErrorString());
   const std::unique_ptr<aiScene> scene(importer.GetOrphanedScene());
