@@ -624,7 +624,7 @@ def test_numbers_of_images_come_back(painted):
     inside = (phi > np.pi / 64) & (phi < np.pi * 63 / 64)
     found = painted.sample(rows)
     assert found.shape == (len(V),) and np.allclose(found[inside], (phi / np.pi * 64 - 0.5)[inside], atol=1e-11)
-    for convention, turns, offset in (("sphparam", 1, 0), ("gis", 1, 0.5), ("envmap", -1, 0.25), ("blender", -1, 0.5)):
+    for convention, turns, offset in (("sphparam", 1, 0), ("gis", 1, 0.5), ("three", 1, 0.5), ("envmap", -1, 0.25), ("blender", -1, 0.5)):
         u = (turns * theta / (2 * np.pi) + offset) % 1
         between = (u > 1 / 128) & (u < 127 / 128) & inside
         found = painted.sample(np.stack([columns, rows], -1), convention=convention)
