@@ -166,9 +166,23 @@ TEST_CASE("export: levels of as many triangles as are named, at most") {
   CHECK(json["levels"][1]["triangles"] >= 100);  // the chart cuts some
   CHECK(json["levels"][2]["triangles"] < json["levels"][1]["triangles"]);
   CHECK(std::filesystem::exists(egg.folder / "a_lod2.glb"));
-  const Ended same = egg.run("b.glb", {"--lod-faces", "320"});
-  CHECK(same.code == 0);
-  CHECK_THAT(same.err, Contains("--lod-faces: 0 coarser meshes are written; the last has 320 "));
+}
+
+TEST_CASE(
+    "export: levels as fine as the mesh are passed over, which is told, and coarser ones made") {
+  const Egg egg;
+  const std::string report = egg.folder / "r.json";
+  const Ended ended = egg.run("a.glb", {"--lod-faces", "5000,320,100", "--json", report});
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.err,
+             Contains("--lod-faces: 2 levels are left out: the mesh has no more than 320 "
+                      "triangles\n"));
+  CHECK_THAT(ended.err, !Contains("none is coarser") && !Contains("instead of"));
+  const Json json = Json::parse(bytes_of(report));
+  CHECK(json["lods_wanted"] == 3);
+  CHECK(json["lods"] == 1);
+  CHECK(std::filesystem::exists(egg.folder / "a_lod1.glb"));
+  CHECK_FALSE(std::filesystem::exists(egg.folder / "a_lod2.glb"));
 }
 
 TEST_CASE("export: levels that cross themselves in space are told, and in the report") {

@@ -218,11 +218,11 @@ class Exporter {
       session_.console.warning("--lod-faces: " + counted(finer, "level is", "levels are") +
                                " left out: the mesh has no more than " +
                                counted(mapped.mesh().face_count(), "triangle"));
-    record_.lods_wanted = arguments_.levels() - finer;
+    record_.lods_wanted = arguments_.levels();
     record_.lods = static_cast<int>(coarser.size());
     for (std::size_t i = 0; i < std::min(coarser.size(), wanted.size()); ++i)
       tell_count(coarser[i].mesh().face_count(), wanted[i]);
-    if (record_.lods == record_.lods_wanted) return;
+    if (record_.lods + finer == record_.lods_wanted) return;
     const MappedMesh& last = coarser.empty() ? mapped : coarser.back();
     session_.console.warning(
         (arguments_.lod_faces.empty() ? "--lods " + std::to_string(record_.lods_wanted)
