@@ -128,6 +128,8 @@ endif()
 if(remesh IN_LIST SPHPARAM_BUILT)
   find_package(OpenSubdiv REQUIRED MODULE)
   add_component(remesh ROOMS remesh displace LIBRARIES OpenSubdiv::osdCPU=osdCPU)
+  # Their eight-lane vectors, as the library's.
+  target_compile_options(sphparam_remesh PRIVATE -fno-math-errno -Wno-psabi)
 endif()
 if(wrap IN_LIST SPHPARAM_BUILT)
   add_component(wrap ROOMS wrap)

@@ -53,6 +53,20 @@ struct LaneMask {
   SPHPARAM_INLINE LaneMask operator~() const { return {~v}; }
 };
 
+/// The number in each lane. By permutations: GCC 12 sets lane after lane where a vector is made of
+/// scalars in a function that was not itself declared for vectors as wide.
+template <int W>
+SPHPARAM_INLINE typename Vectors<W>::Doubles all_lanes(double value) {
+  const Vectors<2>::Doubles pair = {value, value};
+  if constexpr (W == 2) return pair;
+  if constexpr (W == 4) return __builtin_shufflevector(pair, pair, 0, 0, 0, 0);
+  if constexpr (W == 8) {
+    Vectors<8>::Doubles first{};
+    first[0] = value;
+    return __builtin_shufflevector(first, first, 0, 0, 0, 0, 0, 0, 0, 0);
+  }
+}
+
 template <int W>
 struct Lanes {
   using Vector = typename Vectors<W>::Doubles;
@@ -60,7 +74,7 @@ struct Lanes {
 
   Lanes() = default;
   SPHPARAM_INLINE Lanes(Vector vector) : v(vector) {}
-  SPHPARAM_INLINE Lanes(double value) : v(value - Vector{}) {}
+  SPHPARAM_INLINE Lanes(double value) : v(all_lanes<W>(value)) {}
 
   SPHPARAM_INLINE double operator[](int i) const { return v[i]; }
   SPHPARAM_INLINE Lanes operator-() const { return -v; }
@@ -151,6 +165,18 @@ struct LaneVectors {
 template <int W, class Table>
 SPHPARAM_INLINE LaneVectors<W> load(const std::array<Table, 3>& tables, std::size_t i) {
   return {load<W>(&tables[0][i]), load<W>(&tables[1][i]), load<W>(&tables[2][i])};
+}
+
+template <int W, class Table>
+SPHPARAM_INLINE void store(const LaneVectors<W>& a, std::array<Table, 3>& tables, std::size_t i) {
+  store(a.x, &tables[0][i]);
+  store(a.y, &tables[1][i]);
+  store(a.z, &tables[2][i]);
+}
+/// The same vector in each lane.
+template <int W>
+SPHPARAM_INLINE LaneVectors<W> all_lanes(const Vector3& a) {
+  return {a.x(), a.y(), a.z()};
 }
 
 enum class InstructionSet { Baseline, Avx2, Avx512 };
