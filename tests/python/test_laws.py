@@ -287,6 +287,13 @@ def test_progress_that_says_false_stops(no):
         sp.map(*potato(7), progress=lambda stage, fraction: no)
 
 
+def test_progress_that_says_false_stops_what_ends_before_the_answer():
+    no = lambda stage, fraction: False
+    for use in (lambda: sp.map(*potato(1), progress=no), lambda: sp.map(*potato(1)).remesh("ico:1", progress=no)):
+        with pytest.raises(sp.Cancelled):
+            use()
+
+
 @pytest.mark.parametrize("answer", [None, True, np.True_, 0])
 def test_progress_that_says_anything_else_goes_on(answer):
     assert sp.map(*potato(4), progress=lambda stage, fraction: answer).certificate.one_to_one

@@ -192,6 +192,8 @@ void CallState::finish(const std::shared_ptr<CallState>& state, const py::object
   }
   thread.join();
   if (state->error_) std::rethrow_exception(state->error_);
+  // The work may have made its last report before the answer to an earlier one was there.
+  if (state->cancelled_) throw Cancelled();
 }
 
 }  // namespace sphparam::python
