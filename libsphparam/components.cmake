@@ -88,6 +88,11 @@ set(module_of_packages lib/${CMAKE_LIBRARY_ARCHITECTURE}/sphparam)
 set_source_files_properties(src/io/files/modules.cpp PROPERTIES
   COMPILE_DEFINITIONS SPHPARAM_MODULE_OF_PACKAGES="${module_of_packages}")
 
+# What writes texts of records and of scenes is not what takes time.
+file(GLOB texts CONFIGURE_DEPENDS src/records/*.cpp src/gltf/usd/*.cpp src/io/files/stored_zip.cpp)
+set_source_files_properties(${texts} PROPERTIES
+  COMPILE_OPTIONS $<$<CONFIG:Release>:-Os> SKIP_PRECOMPILE_HEADERS ON)
+
 set(CMAKE_FIND_PACKAGE_TARGETS_GLOBAL ON)  # tests and benchmarks use them too
 list(PREPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_SOURCE_DIR}/cmake/modules)
 if(io IN_LIST SPHPARAM_BUILT)

@@ -87,6 +87,40 @@ TEST_CASE("export: .gltf, .obj and .ply come with the files they name") {
   CHECK_THAT(bytes_of(egg.folder / "c.ply"), Contains("comment TextureFile c_checker.png\n"));
 }
 
+TEST_CASE("export: .usda comes with its image, .usdz has it, levels are files of their own") {
+  const Egg egg;
+  REQUIRE(egg.run("a.usda", {"--json", egg.folder / "a.json"}).code == 0);
+  CHECK(egg.folder.names() == Names{"a.json", "a.usda", "a_checker.png", "egg.obj"});
+  CHECK(Json::parse(bytes_of(egg.folder / "a.json"))["levels"][0]["certified_as_stored"] == true);
+  CHECK_THAT(bytes_of(egg.folder / "a.usda"),
+             Contains("string chart_as_stored = \"one-to-one\"\n") &&
+                 Contains("asset inputs:file = @./a_checker.png@\n"));
+  REQUIRE(egg.run("b.usdz", {"--lods", "1", "--variants", "axes"}).code == 0);
+  CHECK_THAT(bytes_of(egg.folder / "b.usdz"), Contains("model.usda") &&
+                                                  Contains("textures/axes.png") &&
+                                                  Contains("string look = \"checker\""));
+  CHECK_THAT(bytes_of(egg.folder / "b_lod1.usdz"), Contains("string level_1_rms = "));
+}
+
+TEST_CASE("export: colours of vertices are primvars of a .usda, and an image of a .usdz") {
+  const Egg egg;
+  MeshFile file = read_mesh(egg.mesh);
+  for (const char* name : {"red", "green", "blue"})
+    file.set_vertex_property(
+        {name, ScalarType::Uint8,
+         std::vector<double>(static_cast<std::size_t>(file.mesh.vertex_count()), 255)});
+  const std::string mesh = egg.folder / "c.ply";
+  write_mesh(mesh, file);
+  for (const char* name : {"c.usda", "c.usdz"})
+    REQUIRE(
+        sphparam_program({"export", mesh, "-o", egg.folder / name, "--image-size", "64"}).code ==
+        0);
+  CHECK_THAT(bytes_of(egg.folder / "c.usda"), Contains("displayColor = [(1, 1, 1), "));
+  CHECK(egg.folder.names() == Names{"c.ply", "c.usda", "c.usdz", "egg.obj"});
+  CHECK_THAT(bytes_of(egg.folder / "c.usdz"),
+             Contains("@textures/baked.png@") && !Contains("displayColor"));
+}
+
 TEST_CASE("export: levels of detail, as files or in one") {
   const Egg egg;
   REQUIRE(egg.run("egg.glb", {"--lods", "2"}).code == 0);
@@ -650,7 +684,14 @@ TEST_CASE("export: the same bytes for any number of threads") {
 TEST_CASE("export: what makes no sense is refused with a reason, and nothing is written") {
   const Egg egg;
   const std::vector<std::tuple<std::string, Names, int, std::string>> mistakes = {
-      {"x.fbx", {}, 2, ".glb, .gltf, .obj or .ply"},
+      {"x.fbx", {}, 2, ".glb, .gltf, .usda, .usdz, .obj or .ply"},
+      {"x.usda", {"--morph", "sphere"}, 2, "--morph is for .glb and .gltf, not for .usda"},
+      {"x.usdz", {"--tangents"}, 2, "--tangents"},
+      {"x.usdz", {"--quantize"}, 2, "--quantize"},
+      {"x.usdz", {"--compress"}, 2, "--compress"},
+      {"x.usda", {"--lods", "1", "--lod", "msft"}, 2, "--lod msft"},
+      {"x.usda", {"--textures", "webp"}, 2, "PNG or JPEG"},
+      {"x.usda", {"--textures", "webp-lossless"}, 2, "PNG or JPEG"},
       {"x.glb", {"--variants", "chekcer"}, 2, "did you mean checker?"},
       {"x.glb", {"--keep-topology", "--refine-poles", "3"}, 2, "--keep-topology"},
       {"x.obj", {"--quantize"}, 2, "--quantize"},

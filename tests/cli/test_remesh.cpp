@@ -125,9 +125,20 @@ TEST_CASE("remesh: a .glb holds the grid's chart, one-to-one, and the colours ca
   CHECK(bare["materials"][0]["name"] == "checker");
 }
 
+TEST_CASE("remesh: as USD the grid's chart too, levels in files of their own") {
+  const Mapped mapped;
+  const std::string out = mapped.folder / "u.usda";
+  REQUIRE(mapped.remesh({"--grid", "ico:2", "--lods", "1", "-o", out}).code == 0);
+  CHECK_THAT(bytes_of(out), Contains("string map_grid = \"ico:2\"\n") &&
+                                Contains("string chart_as_stored = \"one-to-one\"\n") &&
+                                Contains("@./u_checker.png@"));
+  CHECK_THAT(bytes_of(mapped.folder / "u_lod1.usda"),
+             Contains("string map_grid = \"ico:1\"\n") && Contains("@./u_lod1_checker.png@"));
+}
+
 TEST_CASE("remesh: the same bytes for one thread and three") {
   const Mapped mapped;
-  for (const std::string& kind : Names{".ply", ".glb"}) {
+  for (const std::string& kind : Names{".ply", ".glb", ".usdz"}) {
     INFO(kind);
     for (const std::string& threads : Names{"1", "3"}) {
       const std::string out = mapped.folder / (threads + kind);

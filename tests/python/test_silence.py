@@ -194,6 +194,8 @@ def test_what_an_export_leaves_out_is_told_once(painted, tmp_path):
     assert told(lambda: with_uv.export(tmp_path / "b.glb", source_uv=True))[1] == []
     low = sp.map(V, F).remesh("ico:2")
     assert told(lambda: low.export(tmp_path / "c.glb"))[1] == []
+    assert "not carried: the animation" in told(lambda: low.export(tmp_path / "c.usdz", morph="sphere"))[1][0]
+    assert told(lambda: low.export(tmp_path / "c.usda", image_size=16)) == ([str(tmp_path / n) for n in ("c.usda", "c_checker.png")], [])
 
 
 def test_a_picture_that_is_not_twice_as_wide_as_high_is_told(painted, tmp_path):

@@ -276,7 +276,7 @@ def test_without_the_image_module_the_package_is_named(tmp_path):
         (lambda m: m.bake("ambient"), ValueError, "no field ambient; there are .*normal-object.*, ao"),
         (lambda m: m.locate([0, 0, 1]), ValueError, r"a single row is \[\[x, y, z\]\]"),
         (lambda m: sp.map("cow.off"), TypeError, r"sphparam.read\('cow.off'\)"),
-        (lambda m: m.export("cow.stl"), ValueError, "'cow.stl': exports end in .glb, .gltf, .obj, .ply"),
+        (lambda m: m.export("cow.stl"), ValueError, "'cow.stl': exports end in .glb, .gltf, .usda, .usdz, .obj, .ply"),
         (lambda m: sp.map(V, F, values={"a": np.full(len(V), np.nan)}), ValueError, "resample takes NaN"),
         (lambda m: sp.map(V, F, values={"theta": V[:, 0]}), ValueError, "own names are .*phi.*theta"),
         (lambda m: pickle.dumps(m), TypeError, "m.save.*sphparam.load"),

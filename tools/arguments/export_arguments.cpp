@@ -141,6 +141,20 @@ void refuse_combinations(const ExportArguments& a, const std::string& extension)
          "--emissive-map and --tangents");
 }
 
+/// Refuses what USD has no place for.
+void refuse_beyond_usd(const ExportArguments& a, const std::string& extension) {
+  const ExportOptions& e = a.exported;
+  const std::string only = " is for .glb and .gltf, not for " + extension;
+  for (const auto& [given, option] : {std::pair{e.morph != Morph::None, "--morph"},
+                                      {e.look.tangents, "--tangents"},
+                                      {e.quantise, "--quantize"},
+                                      {a.compress, "--compress"},
+                                      {a.lod_style == LodStyle::Msft, "--lod msft"}})
+    refuse(given, option + only);
+  refuse(e.look.textures == TextureFormat::Webp || e.look.textures == TextureFormat::WebpLossless,
+         "--textures: images of USD are PNG or JPEG");
+}
+
 /// Refuses what OBJ and PLY have no place for.
 void refuse_beyond_geometry(const ExportArguments& a, const std::string& extension) {
   const ExportOptions& e = a.exported;
@@ -176,7 +190,7 @@ void declare_export_options(Declaration& command, ExportArguments& arguments) {
   command.input("MESH", arguments.input, "A mesh, with its map or without; - for standard input")
       .sphere(arguments.sphere)
       .output(arguments.output, "FILE",
-              ".glb, .gltf, .obj or .ply; - for a .glb on standard output")
+              ".glb, .gltf, .usda, .usdz, .obj or .ply; - for a .glb on standard output")
       .flag("--all-components", arguments.all_components,
             "Of MESH_0001 and so on, as `map --all-components` writes them; files are so numbered")
       .crease(arguments.crease)
@@ -195,14 +209,19 @@ void declare_export_options(Declaration& command, ExportArguments& arguments) {
 void check_export_arguments(const ExportArguments& a) {
   const std::string extension = is_stream(a.output) ? ".glb" : extension_of(a.output);
   const bool is_gltf = extension == ".glb" || extension == ".gltf";
-  if (!is_gltf && extension != ".obj" && extension != ".ply") {
-    throw UsageMistake("-o: expected .glb, .gltf, .obj or .ply, not " +
+  const bool is_usd = extension == ".usda" || extension == ".usdz";
+  if (!is_gltf && !is_usd && extension != ".obj" && extension != ".ply") {
+    throw UsageMistake("-o: expected .glb, .gltf, .usda, .usdz, .obj or .ply, not " +
                        (extension.empty() ? output_name(a.output) : extension));
   }
   for (const std::string& name : a.exported.look.variants)
     place_among(variant_names(), name, "--variants");
   refuse_combinations(a, extension);
-  if (!is_gltf) refuse_beyond_geometry(a, extension);
+  if (is_usd) {
+    refuse_beyond_usd(a, extension);
+  } else if (!is_gltf) {
+    refuse_beyond_geometry(a, extension);
+  }
 }
 
 }  // namespace sphparam::cli

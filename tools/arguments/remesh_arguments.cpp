@@ -58,8 +58,8 @@ void declare_outputs(Declaration& command, RemeshArguments& arguments) {
   command
       .text(
           "-o,--output", arguments.output, "FILE",
-          "The new mesh in the format of its name (.ply, .vtk and .vtp with its map), or .glb with "
-          "its chart; beside .gii and FreeSurfer's, data has files of its own")
+          "The new mesh in the format of its name (.ply, .vtk and .vtp with its map), or .glb, "
+          ".usda or .usdz with its chart; beside .gii and FreeSurfer's, data has files of its own")
       .written()
       .texts("--write-data", arguments.data_outputs, "FILE,…",
              "A file for each of --data, in the format of its name; may be given again")

@@ -74,6 +74,7 @@ struct RemeshRequests {
   std::vector<std::string> outputs;  // of -o and --lods: one a level, or one .glb
   std::vector<ImageRequest> images;
   bool one_file = false;                       // a .glb
+  bool has_chart = false;                      // a .glb or USD
   std::optional<TextureLayout> layout;         // texture coordinates in that of the grid …
   std::vector<TextureLayout> coarser_layouts;  // … and of those of --lods
   Words areas;                                 // none, or two files

@@ -122,7 +122,7 @@ Words data_outputs_of(const RemeshArguments& arguments) {
 }
 
 void check_outputs(const RemeshArguments& arguments) {
-  require_mesh_name("-o", "the new mesh", arguments.output, {".glb"});
+  require_mesh_name("-o", "the new mesh", arguments.output, {".glb", ".usda", ".usdz"});
   if (arguments.output.empty() && arguments.limit_output.empty() && arguments.csv.empty() &&
       arguments.displacement.empty() && arguments.data_outputs.empty() &&
       images_asked_for(arguments).empty()) {
@@ -240,7 +240,7 @@ void check_texture(RemeshArguments& arguments, const std::optional<GridSpec>& gr
         "--transfer uv carries the mesh's texture coordinates, and --uv grid makes others");
   if (!takes_texture_of_grid(arguments))
     throw UsageMistake(
-        "--uv grid is of -o in .obj or .ply, which keep quads; a .glb has the chart of its "
+        "--uv grid is of -o in .obj or .ply, which keep quads; a .glb or USD has the chart of its "
         "directions");
 }
 
@@ -295,7 +295,9 @@ RemeshRequests check_remesh_arguments(RemeshArguments& arguments) {
     for (const GridSpec& grid : requests.coarser)
       requests.coarser_layouts.push_back(layout_for(arguments, grid));
   }
-  requests.one_file = extension_of(arguments.output) == ".glb";
+  const std::string kind = extension_of(arguments.output);
+  requests.one_file = kind == ".glb";
+  requests.has_chart = requests.one_file || kind == ".usda" || kind == ".usdz";
   requests.outputs = outputs_of(arguments, requests.one_file);
   check_all_places(arguments, requests);
   return requests;

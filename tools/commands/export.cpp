@@ -21,6 +21,7 @@
 #include "io/attributes/remarks.h"
 #include "io/shell_word.h"
 #include "number_text.h"
+#include "sphparam/gltf/usd_writer.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/measure/measurable.h"
@@ -42,6 +43,7 @@ constexpr char summary[] =
     "  sphparam export statue.sph.ply --image earth.png --morph sphere -o statue.gltf\n"
     "  sphparam export statue.sph.ply --image earth.png --shape sphere -o ball.glb\n"
     "  sphparam export statue.sph.ply --image earth.png -o statue_earth.obj\n"
+    "  sphparam export statue.sph.ply --images bake/ -o statue.usdz\n"
     "  sphparam export brain.sph.ply --scalar sulc --range -2,2 -o brain.glb\n"
     "\n"
     "Any equirectangular image sits right: the mesh is split along the date line and at the "
@@ -53,8 +55,7 @@ constexpr char summary[] =
     "a checker, or white where a normal or occlusion map is given.\n"
     "Texture coordinates are certified as they are stored, rounding included; what folds there is "
     "told.\n"
-    "A .glb, .obj or .ply is read back from the disk and compared. A normal "
-    "map\n"
+    "A .glb, .usda, .usdz, .obj or .ply is read back from the disk and compared. A normal map\n"
     "is of one mesh: coarser --lods are without.\n";
 
 ExportOptions export_options(const ExportArguments& arguments, Session& session) {
@@ -65,9 +66,12 @@ ExportOptions export_options(const ExportArguments& arguments, Session& session)
   options.progress = session.progress();
   // On a sphere 16 bits would fold triangles that float32 does not.
   if (arguments.compress && options.shape != ShapeKind::Sphere) options.quantise = true;
-  // Texts have an image in any case, beside which colours of vertices are not seen.
+  // Texts have an image in any case, beside which colours of vertices are not seen; nor does a
+  // telephone show these.
   const std::string kind = extension_of(arguments.output);
-  options.look.bake_colours = options.look.for_text = kind == ".obj" || kind == ".ply";
+  options.look.for_text = kind == ".obj" || kind == ".ply";
+  options.look.bake_colours = options.look.for_text || kind == ".usdz";
+  options.upward_v = kind == ".usda" || kind == ".usdz";
   return options;
 }
 
@@ -112,7 +116,7 @@ class Exporter {
     const Look look = look_of(mapped, options_);
     record_.textures = look.textures;
     const std::string kind = extension_of(arguments_.output);
-    kind == ".obj" || kind == ".ply" ? add_text(mapped, look) : add_gltf(mapped, look);
+    kind == ".obj" || kind == ".ply" ? add_text(mapped, look) : add_assets(mapped, look);
   } catch (const std::invalid_argument& error) {
     if (options_.refine_poles <= 1) throw;
     throw UsageMistake(std::string("--refine-poles: ") + error.what());
@@ -132,7 +136,8 @@ class Exporter {
     return told;
   }
 
-  bool is_gltf() const {
+  /// A unit is a metre there.
+  bool is_in_metres() const {
     const std::string kind = extension_of(arguments_.output);
     return kind != ".obj" && kind != ".ply";
   }
@@ -150,7 +155,7 @@ class Exporter {
     check_places(places_);
   }
 
-  void add_gltf(const MappedMesh& mapped, const Look& look) {
+  void add_assets(const MappedMesh& mapped, const Look& look) {
     std::vector<MappedMesh> coarser =
         simplified_meshes(mapped, wanted_triangles(mapped),
                           {.threads = options_.threads, .progress = options_.progress});
@@ -240,6 +245,7 @@ class Exporter {
 
   void add_asset_at(int level, const Asset& asset) {
     const std::string path = level_path(arguments_.output, level);
+    if (extension_of(path).starts_with(".usd")) session_.warn(beyond_usd(asset));
     for (std::size_t i = 0; i < asset.levels.size(); ++i)
       tell(asset.charts[i], asset.levels[i].vertex_count());
     session_.warn(asset.warnings);
@@ -367,7 +373,7 @@ std::string export_one(const ExportArguments& arguments, Session& session, Words
   lines.push_back(display_name(arguments.input) + ": " + short_number(session.stopwatch.seconds()) +
                   " s → " + output_name(arguments.output));
   std::ranges::move(exporter.sizes(), std::back_inserter(lines));
-  if (exporter.is_gltf()) tell_size(mapped.mesh(), session);
+  if (exporter.is_in_metres()) tell_size(mapped.mesh(), session);
   return to_json(exporter.record());
 }
 

@@ -18,6 +18,7 @@
 #include "number_text.h"
 #include "reports/told_losses.h"
 #include "sphparam/gltf/export.h"
+#include "sphparam/gltf/usd_writer.h"
 #include "sphparam/io/certified_files.h"
 #include "sphparam/io/fillers.h"
 #include "sphparam/io/losses.h"
@@ -39,12 +40,15 @@ void add_errors(Asset& asset, std::span<const LevelOfDetail> levels) {
 }
 
 Asset asset_of(const RemeshArguments& arguments, const MappedMesh& mapped,
-               std::span<const LevelOfDetail> levels, Session& session) try {
+               std::span<const LevelOfDetail> levels, bool is_usd, Session& session) try {
   const MappedMesh& made = levels.front().mesh;
   ExportOptions options{.name = stem_or(arguments.input, "mesh"),
                         .source = display_name(arguments.input),
+                        .upward_v = is_usd,
                         .threads = session.threads(),
                         .progress = session.progress()};
+  // Telephones show no colours of vertices.
+  options.look.bake_colours = extension_of(arguments.output) == ".usdz";
   const Look look = make_look(made, mapped, options);
   for (const LevelOfDetail& level : levels.subspan(1)) options.coarser.push_back(level.mesh);
   Asset asset = make_asset(made, look, options);
@@ -54,20 +58,27 @@ Asset asset_of(const RemeshArguments& arguments, const MappedMesh& mapped,
   throw UsageMistake(error.what());
 }
 
-/// The new mesh as a .glb with the chart of its directions, as `export` writes it: with the
+/// The new mesh as a .glb or USD with the chart of its directions, as `export` writes it: with the
 /// texture of the source where its coordinates are carried, else with the colours carried, else
 /// with a checker. Quads are cut in two. Coarser levels hang on the finest by MSFT_lod, which is
-/// what viewers without it show; the extras tell the error of each.
+/// what viewers without it show; the extras tell the error of each. As USD each level has files of
+/// its own.
 ///
 /// Requires: a level, the finest first. Throws: NotCertifiedError where (u, v) is not one-to-one;
 /// ReadError for positions beyond float32; WriteError for more than a .glb holds, and as
 /// PendingFiles does; Cancelled.
-void add_glb(const RemeshArguments& arguments, const MappedMesh& mapped,
-             std::span<const LevelOfDetail> levels, Session& session) {
+void add_charted(const RemeshArguments& arguments, const RemeshRequests& requests,
+                 const MappedMesh& mapped, std::span<const LevelOfDetail> levels,
+                 Session& session) {
   with_file_errors(arguments.input, arguments.output, [&] {
-    const Asset asset = asset_of(arguments, mapped, levels, session);
-    session.warn(asset.warnings);
-    add_asset(session.files, arguments.output, asset);
+    const std::size_t in_each = requests.one_file ? levels.size() : 1;
+    for (std::size_t i = 0; i < requests.outputs.size(); ++i) {
+      const Asset asset =
+          asset_of(arguments, mapped, levels.subspan(i, in_each), !requests.one_file, session);
+      session.warn(asset.warnings);
+      if (!requests.one_file) session.warn(beyond_usd(asset));
+      add_asset(session.files, requests.outputs[i], asset);
+    }
   });
 }
 
@@ -94,8 +105,8 @@ void add_meshes(const RemeshArguments& arguments, const RemeshRequests& requests
                 const MappedMesh& mapped, const std::vector<LevelOfDetail>& levels,
                 Session& session) {
   const WriteOptions new_mesh{.origin = arguments.input};
-  if (requests.one_file) {
-    add_glb(arguments, mapped, levels, session);
+  if (requests.has_chart) {
+    add_charted(arguments, requests, mapped, levels, session);
   } else if (!arguments.output.empty()) {
     std::vector<std::string> left_behind;
     add_sampling_losses(left_behind, mapped.file());

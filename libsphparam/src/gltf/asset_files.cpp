@@ -19,6 +19,8 @@
 #include "gltf/side_files.h"
 #include "gltf/stored_chart.h"
 #include "gltf/textured_mesh.h"
+#include "gltf/usd/usd_check.h"
+#include "gltf/usd/usd_materials.h"
 #include "gltf/written_check.h"
 #include "io/attributes/finish_terms.h"
 #include "io/attributes/remarks.h"
@@ -27,6 +29,7 @@
 #include "number_text.h"
 #include "sphparam/errors.h"
 #include "sphparam/gltf/export.h"
+#include "sphparam/gltf/usd_writer.h"
 #include "sphparam/io/certified_files.h"
 #include "sphparam/io/fillers.h"
 #include "sphparam/io/losses.h"
@@ -39,11 +42,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
+bool is_usd(const std::string& path) {
+  const std::string extension = extension_of(path);
+  return extension == ".usda" || extension == ".usdz";
+}
+
 /// What the path says, and the asset.
 GltfOptions resolved(GltfOptions options, const std::string& path, const Asset& asset) {
   const std::string extension = is_stream(path) ? ".glb" : extension_of(path);
   if (extension != ".glb" && extension != ".gltf")
-    throw std::invalid_argument("an asset is written as .glb or .gltf, not as " + extension);
+    throw std::invalid_argument("an asset is written as .glb, .gltf, .usda or .usdz, not as " +
+                                extension);
   if (extension == ".glb") {
     options.container = GltfContainer::Binary;
   } else if (options.container == GltfContainer::Binary) {
@@ -106,6 +115,16 @@ void require_quantisable(const std::string& path, const Asset& asset, const Gltf
   throw NotCertifiedError(output_name(path) + ": " + counted(folds, "triangle", "triangles") +
                           " would fold in (u, v) as 16-bit numbers: an asset made with "
                           "ExportOptions::quantise says so");
+}
+
+/// Likewise, counted from below.
+void require_flippable(const std::string& path, const Asset& asset) {
+  if (asset.upward_v) return;
+  const long folds = folds_by_flipping(asset);
+  if (folds == 0) return;
+  throw NotCertifiedError(output_name(path) + ": " + counted(folds, "triangle", "triangles") +
+                          " would fold in (u, 1 - v): an asset made with "
+                          "ExportOptions::upward_v says so");
 }
 
 /// What changes for the way it is stored; nothing: nothing does.
@@ -184,6 +203,26 @@ void add_mesh_beside_image(Adder& adder, const std::string& path, MeshFile textu
   }
 }
 
+/// The names of write_usd are those of the files but for the layer's, which has that of the path.
+UsdFiles usd_files(const std::string& path, const Asset& asset) {
+  if (extension_of(path) == ".usdz") return {{"", usdz_bytes(asset)}};
+  return write_usd(asset, stem_of_export(path));
+}
+
+WrittenFiles add_usd(PendingFiles& files, const std::string& path, const Asset& asset) {
+  require_export_place(path);
+  require_flippable(path, asset);
+  Adder adder(files, path);
+  for (auto& [name, bytes] : usd_files(path, asset)) {
+    const BytesCheck check = [&](std::string_view on_disk) {
+      check_written_usd(on_disk, output_name(path), asset);
+    };
+    name.empty() ? adder.add(path, std::move(bytes), check)
+                 : adder.add(path_beside(path, name), std::move(bytes));
+  }
+  return adder.take();
+}
+
 }  // namespace
 
 std::size_t bytes_of(const std::vector<AssetImage>& images) {
@@ -206,8 +245,14 @@ std::string words_of(const WrittenFiles& files, std::size_t image_bytes) {
 
 std::vector<std::string> asset_files(const std::string& path, const Asset& asset,
                                      const GltfOptions& given) {
-  const GltfOptions options = resolved(given, path, asset);
   std::vector<std::string> names = {path};
+  if (is_usd(path)) {
+    if (extension_of(path) == ".usda")
+      for (const int image : images_of_usd(asset))
+        names.push_back(image_file(path, asset.images.at(static_cast<std::size_t>(image))));
+    return names;
+  }
+  const GltfOptions options = resolved(given, path, asset);
   if (options.container != GltfContainer::Separate) return names;
   names.push_back(path_beside(path, options.stem + ".bin"));
   if (options.compress) return names;  // images are in the buffer then
@@ -217,6 +262,7 @@ std::vector<std::string> asset_files(const std::string& path, const Asset& asset
 
 WrittenFiles add_asset(PendingFiles& files, const std::string& path, const Asset& given_asset,
                        const GltfOptions& given) {
+  if (is_usd(path)) return add_usd(files, path, given_asset);
   const GltfOptions options = resolved(given, path, given_asset);
   require_quantisable(path, given_asset, options);
   const std::optional<Asset> changed = as_stored(given_asset, options);

@@ -26,8 +26,8 @@ SphereMap turned(SphereMap map, int quarters) {
   return map;
 }
 
-bool holds_in_float32(const ExportChart& chart, int threads) {
-  const UvStorage storage{.mirrored = chart.mirrored};
+bool holds_in_float32(const ExportChart& chart, bool upwards, int threads) {
+  const UvStorage storage{.mirrored = chart.mirrored, .upwards = upwards};
   return is_one_to_one(chart.chart, read_uv(stored_uv(chart.chart, storage), storage), threads);
 }
 
@@ -51,7 +51,8 @@ ExportChart export_chart(const TriangleMesh& mesh, const Topology& topology, con
                                 options.threads);
   }
   result.mirrored = info.turns < 0;
-  if (result.chart.certificate.one_to_one() && !holds_in_float32(result, options.threads))
+  if (result.chart.certificate.one_to_one() &&
+      !holds_in_float32(result, options.upward_v, options.threads))
     result.chart = settled(std::move(result.chart), options.threads);
   result.theta_offset = -quarters * std::numbers::pi / 2;
   return result;

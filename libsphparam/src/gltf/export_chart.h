@@ -13,6 +13,7 @@ struct ExportChartOptions {
   Convention convention = Convention::Sphparam;
   int refine_poles = 1;        // wedges a pole triangle
   bool keep_topology = false;  // no new vertices, so that triangles may fold
+  bool upward_v = false;       // float32 is to hold (u, 1 − v)
   int threads = 0;
   Progress progress = {};  // of the chart
 };

@@ -12,6 +12,7 @@ ExportChartOptions chart_options(const ExportOptions& options) {
   return {.convention = options.convention,
           .refine_poles = options.refine_poles,
           .keep_topology = options.keep_topology,
+          .upward_v = options.upward_v,
           .threads = options.threads,
           .progress = options.progress};
 }

@@ -30,7 +30,8 @@ GeometryOptions geometry_options(const ExportOptions& options, const MappedMesh&
                            .threads = options.threads};
   geometry.front_at_zero = map_is_upright(mapped.provenance(), geometry.up);
   // What wraps beyond 1 has no place in normalised integers.
-  geometry.buffers = {.uv = {.sixteen_bits = options.quantise && !options.keep_topology},
+  geometry.buffers = {.uv = {.sixteen_bits = options.quantise && !options.keep_topology,
+                             .upwards = options.upward_v},
                       .tangents = look.has_normals(),
                       .colours = look.vertex_colours,
                       .theta_phi = options.theta_phi,
@@ -137,6 +138,7 @@ Asset without_levels(const MappedMesh& mapped, const Look& look, const ExportOpt
               .copyright = std::move(author.copyright),
               .source_extras = std::move(author.extras),
               .quantised = options.quantise,
+              .upward_v = options.upward_v,
               .warnings = look.warnings};
   for (const auto& [key, value] : mapped.provenance())
     asset.extras.emplace_back("map_" + key, value);

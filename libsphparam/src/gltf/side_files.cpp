@@ -1,6 +1,6 @@
 // Files beside an export, which are called by its name. One that is there is replaced only where an
-// export wrote it: the .gltf, .mtl or .ply of that name is as we write it, and names it. Whatever
-// else is there may be somebody's texture or buffer.
+// export wrote it: the .gltf, .mtl, .ply or .usda of that name is as we write it, and names it.
+// Whatever else is there may be somebody's texture or buffer.
 
 #include "gltf/side_files.h"
 
@@ -33,12 +33,14 @@ struct OwnFile {
   std::string (*naming)(const std::string& name);
 };
 
-std::array<OwnFile, 3> own_files() {
+std::array<OwnFile, 4> own_files() {
   return {{{".gltf", "\"generator\": \"sphparam ",
             [](const std::string& name) { return "\"" + uri_of_file(name) + "\""; }},
            {".mtl", own_library_head(), [](const std::string& name) { return " " + name + "\n"; }},
            {".ply", "\ncomment sphparam material sphparam\n",
-            [](const std::string& name) { return "\ncomment TextureFile " + name + "\n"; }}}};
+            [](const std::string& name) { return "\ncomment TextureFile " + name + "\n"; }},
+           {".usda", "string creator = \"sphparam ",
+            [](const std::string& name) { return "@./" + name + "@"; }}}};
 }
 
 bool is_there(const std::string& path) {
@@ -114,11 +116,13 @@ void require_own_file(const std::string& path, const std::string& file, std::str
 void require_name_of_line(const std::string& path) {
   const std::string stem = stem_of_export(path);
   const std::string kind = extension_of(path);
-  if (stem.empty() || (kind != ".obj" && kind != ".ply")) return;
-  if (std::ranges::any_of(stem, ends_names) || is_blank(stem.front()))
-    throw WriteError(path, "the files beside a " + kind +
-                               " are named in lines of text, where names have no line breaks or "
-                               "other control characters, no backslash, and no blank first");
+  if (stem.empty() || (kind != ".obj" && kind != ".ply" && kind != ".usda")) return;
+  const bool ends_quotes = kind == ".usda" && stem.find("@@@") != std::string::npos;
+  if (std::ranges::any_of(stem, ends_names) || is_blank(stem.front()) || ends_quotes)
+    throw WriteError(path,
+                     "the files beside a " + kind +
+                         " are named in lines of text, where names have no line breaks or "
+                         "other control characters, no backslash, no @@@, and no blank first");
 }
 
 }  // namespace sphparam

@@ -1,10 +1,14 @@
-// Files that other programs show: glTF, textured OBJ and PLY, pages.
+// Files that other programs show: glTF, USD, textured OBJ and PLY, pages.
 
 #include <pybind11/stl.h>
+
+#include <algorithm>
+#include <iterator>
 
 #include "binding.h"
 #include "call.h"
 #include "sphparam/gltf/export.h"
+#include "sphparam/gltf/usd_writer.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/report/report_page.h"
 
@@ -80,11 +84,15 @@ Exported export_mesh(const std::string& path, const MappedMesh& mesh,
     TexturedFiles written = write_textured_mesh(path, mesh, request.options);
     return {std::move(written.files), std::move(written.warnings)};
   }
-  const Asset asset = make_asset(mesh, request.options);
+  ExportOptions options = request.options;
+  options.upward_v = kind == ".usda" || kind == ".usdz";
+  options.look.bake_colours = kind == ".usdz";  // telephones show none of vertices
+  Asset asset = make_asset(mesh, options);
   PendingFiles files;
   WrittenFiles written = add_asset(files, path, asset, request.gltf);
   files.publish();
-  return {std::move(written), asset.warnings};
+  if (options.upward_v) std::ranges::move(beyond_usd(asset), std::back_inserter(asset.warnings));
+  return {std::move(written), std::move(asset.warnings)};
 }
 
 py::tuple write_export(const Mapped& mapped, const FilePath& path, const py::dict& values,

@@ -22,7 +22,7 @@ _export_options = (
     "variants", "image_size", "unlit", "tangents", "textures", "name", "convention", "refine_poles", "keep_topology",
     "shape", "morph", "theta_phi", "source_uv", "quantise", "compress", "embedded",
 )  # fmt: skip
-_export_endings = (".glb", ".gltf", ".obj", ".ply")
+_export_endings = (".glb", ".gltf", ".usda", ".usdz", ".obj", ".ply")
 
 
 def _require_ending(path: str) -> str:
@@ -89,7 +89,7 @@ class MapFiles(MapFacts):
         threads: int = 0,
         progress: Progress = None,
     ) -> List[str]:
-        """Writes the mesh with spherical texture coordinates: ``.glb``, ``.gltf``, ``.obj``, ``.ply``.
+        """Writes the mesh with spherical texture coordinates: ``.glb``, ``.gltf``, ``.usda``, ``.usdz``, ``.obj``, ``.ply``.
 
         Parameters
         ----------
@@ -164,7 +164,7 @@ class MapFiles(MapFacts):
             "texture": texture, "normal_map": normal_map, "occlusion_map": occlusion_map, "orm_map": orm_map,
             "emissive_map": emissive_map,
         }  # fmt: skip
-        # .obj and .ply keep a copy of the image, .gltf and .glb hold it: the file made here may go.
+        # .obj, .ply and USD keep a copy of the image, .gltf and .glb hold it: the file made here may go.
         with ExitStack() as held:
             for what, image in given_images.items():
                 options[what] = held.enter_context(as_file(image, what, convention, refine_poles))

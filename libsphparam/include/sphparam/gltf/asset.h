@@ -94,6 +94,7 @@ struct Asset {
 
   // What `make_asset` says besides, which no file holds.
   bool quantised = false;                  // its (u, v) are certified as 16-bit numbers
+  bool upward_v = false;                   // they are certified as (u, 1 − v), as USD has them
   std::vector<ChartFigures> charts = {};   // of the levels
   std::vector<std::string> warnings = {};  // for people: what folds as stored, what is left out
 };

@@ -69,6 +69,7 @@ struct ExportOptions {
   bool theta_phi = false;  // _THETA_PHI, radians; θ in [0, 2π), ϕ in [0, π]
   bool source_uv = false;  // TEXCOORD_1: the texture coordinates of the mesh itself
   bool quantise = false;   // (u, v) and all else as 16-bit numbers: certified so
+  bool upward_v = false;   // for USD: (u, v) are certified as (u, 1 − v) in float32
   std::vector<MappedMesh> coarser = {};  // levels of detail on the same sphere, in the same file
   int threads = 0;                       // 0: all cores
   Progress progress = {};
@@ -165,12 +166,13 @@ std::string words_of(const WrittenFiles& files, std::size_t image_bytes);
 std::size_t bytes_of(const std::vector<AssetImage>& images);
 
 /// The files that an asset becomes, the one named first: of .gltf also a .bin and images, unless
-/// they are embedded.
+/// they are embedded, of .usda images.
 std::vector<std::string> asset_files(const std::string& path, const Asset& asset,
                                      const GltfOptions& options = {});
 
 /// Adds the files of an asset: one .glb; a .gltf beside a .bin and images, or by
-/// GltfContainer::Embedded alone. The path decides: container and stem of the options do not count
+/// GltfContainer::Embedded alone; a .usda beside images, or one .usdz, whose options are none. The
+/// path decides: container and stem of the options do not count
 /// otherwise; "-" is a .glb on standard output. Where it is compressed, triangles and vertices come
 /// in an order that makes it small, without vertices that no triangle has. Places that 16-bit
 /// numbers would make one are set apart by some of their steps, as far as there is room: who welds
@@ -178,8 +180,9 @@ std::vector<std::string> asset_files(const std::string& path, const Asset& asset
 /// read back and compared number by number. Throws: WriteError, also where a .bin or an image of
 /// that name is there that no export of the name wrote; NotCertifiedError where 16-bit numbers are
 /// asked for here alone, not of `make_asset`, and fold triangles in (u, v) that do not fold in the
-/// asset; std::length_error where a .glb would be beyond 4 GiB; std::runtime_error where what was
-/// read back differs; std::invalid_argument for other endings.
+/// asset, as for USD where (u, 1 − v) does; std::length_error where a .glb or .usdz would be beyond
+/// 4 GiB; std::runtime_error where what was
+/// read back differs; std::invalid_argument for other endings, and as `write_usd`.
 WrittenFiles add_asset(PendingFiles& files, const std::string& path, const Asset& asset,
                        const GltfOptions& options = {});
 
@@ -204,8 +207,8 @@ std::vector<std::string> textured_files(const std::string& path, const Look& loo
 
 /// For programs that want to know before work. Throws: WriteError where the .mtl of an .obj of this
 /// name, or the .bin of a .gltf in several files, is there and was not written by an export, as
-/// other meshes may need it; where the name of an .obj or .ply cannot stand in a line of text, in
-/// which what is beside it is named.
+/// other meshes may need it; where the name of an .obj, .ply or .usda cannot stand in a line of
+/// text, in which what is beside it is named.
 void require_export_place(const std::string& path);
 
 /// Adds an .obj or .ply with (u, v) at corners, and what it names. What is on the disk is read back
