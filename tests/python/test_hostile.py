@@ -412,6 +412,21 @@ def test_coefficients_of_the_users_own_are_evaluated_or_refused(mapped):
             shape(V)
 
 
+def test_values_of_a_kind_that_is_not_taken_are_refused_with_what_to_write():
+    mesh = sp.Mesh(V, F, values={"p": np.arange(float(len(V)))}, face_values={"vn": np.arange(float(len(F)))})
+    mapped = sp.map(mesh)
+    for use, error, words in (
+        (lambda: mapped.resample("vn", V), ValueError, r"'vn' is of faces: m\.face_values\['vn'\]\[m\.locate\(directions\)\[0\]\]"),
+        (lambda: mapped.spharm(1, values=["vn"]), ValueError, "'vn' is of faces; harmonics are of what vertices have"),
+        (lambda: mapped.spharm(1, values={"q": np.zeros(len(V))}), TypeError, "names of what the mesh has are needed, not arrays"),
+        (lambda: mapped.spharm(1, values=np.zeros(len(V))), TypeError, "names of what the mesh has are needed, not arrays"),
+        (lambda: sp.map(V, F, values={"p": np.zeros(len(V), complex)}), TypeError, r"values\['p'\]: .* z\.real and z\.imag"),
+    ):
+        with pytest.raises(error, match=words):
+            use()
+    assert mapped.face_values["vn"][mapped.locate(V)[0]].shape == (len(V),)
+
+
 def test_levels_end_where_there_are_no_more(mapped):
     assert len(mapped.levels(2**40)) == len(mapped.levels(3))
 

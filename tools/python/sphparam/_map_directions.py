@@ -69,6 +69,8 @@ class MapDirections(MapFacts):
 
     def _named(self, name: str) -> Array:
         if name not in self.values:
+            if name in self.face_values:
+                raise ValueError(f"values: {name!r} is of faces: m.face_values[{name!r}][m.locate(directions)[0]] is that of the face at each direction")
             known = ", ".join(["vertices", *self.values])
             raise ValueError(f"values: the mesh has no {name!r}; it has {known}")
         return self.values[name]

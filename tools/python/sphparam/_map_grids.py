@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Dict, Iterable, List, Optional, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Union
 
 from . import _arrays, _core
 from ._errors import as_typed_here
@@ -10,6 +10,7 @@ from ._figures import InSpace
 from ._losses import tell
 from ._map_facts import MapFacts, mapped_of
 from ._mesh import any_mesh, centre_of
+from ._numpy import np
 from ._progress import Progress, told
 
 if TYPE_CHECKING:
@@ -182,7 +183,12 @@ class MapGrids(MapFacts):
 
         turned = _alignment(align)
         flips = _flips(flip_template, turned)
+        if isinstance(values, (Mapping, np.ndarray)):
+            raise TypeError("values: names of what the mesh has are needed, not arrays: sphparam.map(mesh, values={…}) gives it some")
         names = [column for name in _names(values, "values") for column in self.values.columns(name)]
+        faces = [name for name in names if name not in self.values and name in self.face_values]
+        if faces:
+            raise ValueError(f"values: {faces[0]!r} is of faces; harmonics are of what vertices have")
         degree = _arrays.whole(degree, "degree", 1 if turned else 0, 1000)
         about = None if centre is None else centre_of(centre, self.mesh)
         if about is not None and not radius:

@@ -105,6 +105,8 @@ def columns(name: Any, thing: Any, count: int, what: str = "vertex") -> Rows:
     if name in _of_the_map:
         raise ValueError(f"{label}: the map's own names are {', '.join(sorted(_of_the_map))}")
     bare = _arrays.unmasked(thing, label)
+    if bare.dtype.kind == "c":
+        raise TypeError(f"{label}: a mesh keeps real numbers: two arrays, z.real and z.imag, have complex ones")
     array = bare if bare.dtype.kind == "b" else _arrays.numbers(thing, label)
     if array.ndim not in (1, 2) or len(array) != count:
         shape = "×".join(str(n) for n in array.shape) or "a single number"
