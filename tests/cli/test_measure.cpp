@@ -256,6 +256,59 @@ TEST_CASE("measure: one body in two units is asked after, a part of a whole is n
     CHECK_THAT(said(one, other), !Contains("times smaller"));
 }
 
+TEST_CASE("measure: --leave-out-border leaves out what lies over holes, grey in the file") {
+  const Balls balls;
+  TriangleMesh half = icosphere(3);
+  half.positions *= 1.5;
+  half.triangles.conservativeResize(half.face_count() / 2, 3);
+  const std::string scan = balls.folder / "scan.obj", file = balls.folder / "error.ply";
+  write_bytes(scan, obj_text(half));
+  const auto measured = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"measure", balls.small, scan, "--samples", "5000"});
+    return sphparam_program(options);
+  };
+  const std::string json = balls.folder / "report.json";
+  const Ended ended = measured({"--leave-out-border", "--per-vertex", file, "--json", json});
+  REQUIRE(ended.code == 0);
+  const Json report = Json::parse(bytes_of(json)), &forth = report["first_to_second"];
+  CHECK(forth["left_out"].get<double>() == Approx(0.5).margin(0.05));
+  CHECK(forth["n_samples"].get<double>() == Approx(5000 * (1 - forth["left_out"].get<double>())));
+  CHECK(forth["max"].get<double>() < 0.51);
+  CHECK(forth["max_bound"].is_null());
+  CHECK(report["second_to_first"]["left_out"] == 0.0);
+  CHECK_THAT(ended.out, Contains("\nleft out, nearest to the border of the other: ") &&
+                            Contains(" of 1, 0 % of 2\n") && Contains("; of samples and vertices"));
+  const MeshFile written = read_mesh(file);
+  const auto& marks = written.find_vertex_property("left_out")->values;
+  const auto& errors = written.find_vertex_property("error")->values;
+  for (std::size_t v = 0; v < marks.size(); ++v) {
+    for (const char* colour : {"red", "green", "blue"})
+      if (marks[v] != 0) CHECK(written.find_vertex_property(colour)->values[v] == 128);
+    if (marks[v] == 0) CHECK(errors[v] < 0.51);
+  }
+  CHECK(std::ranges::count(marks, 1.0) > 200);
+  CHECK(*std::ranges::max_element(errors) > 1);
+  const Json plain = Json::parse(measured({"--json", "-"}).out);
+  CHECK_FALSE(plain["first_to_second"].contains("left_out"));
+}
+
+TEST_CASE("measure: volumes of closed surfaces, and what the second has more") {
+  const Balls balls;
+  const Ended ended = balls.measure({"--json", "-"});
+  const Json report = Json::parse(ended.out);
+  const double small = report["first"]["volume"], large = report["second"]["volume"];
+  CHECK(large == Approx(3.375 * small).epsilon(1e-12));
+  CHECK_THAT(balls.measure({}).out, Contains("\nvolume: 4.1") && Contains(" more (237 %)\n"));
+  const std::string open = balls.folder / "open.obj";
+  write_bytes(open, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const auto with_open = [&](const std::string& option) {
+    return sphparam_program({"measure", balls.small, open, "--samples", "100", option, "-"}).out;
+  };
+  CHECK(Json::parse(with_open("--json"))["second"]["volume"].is_null());
+  CHECK_THAT(sphparam_program({"measure", balls.small, open, "--samples", "100"}).out,
+             !Contains("volume"));
+}
+
 TEST_CASE("measure: --growth says how areas grow between surfaces of the same triangles") {
   const Folder folder;
   TriangleMesh ball = icosphere(2);
@@ -420,6 +473,20 @@ TEST_CASE("measure: --align puts B onto A first, and tells the matrix") {
                       "from principal axes; RMS ") &&
                  Contains(" of the 100 % of samples within ") && Contains("; its matrix:\n") &&
                  Contains("\n  0 0 0 1\n"));
+  const std::string onto = folder / "onto.ply";
+  CHECK(aligned(b, "rigid", {"--aligned", onto, "-q"}).code == 0);
+  CHECK((read_mesh(onto).mesh.positions - body.positions).cwiseAbs().maxCoeff() < 1e-12);
+  CHECK_THAT(aligned(b, "none", {"--aligned", onto}).err,
+             Contains("--aligned is of B as --align puts it onto A"));
+  CHECK_THAT(aligned(b, "rigid", {"--aligned", "onto.doc"}).err, Contains("--aligned"));
+  const std::string normals = folder / "normals.obj";
+  write_bytes(normals,
+              "v 0 0 0\nv 9 0 0\nv 0 5 0\nv 0 0 1\nvn 0 0 1\n"
+              "f 1//1 3//1 2//1\nf 1//1 2//1 4//1\nf 2//1 3//1 4//1\nf 3//1 1//1 4//1\n");
+  const Ended told = sphparam_program(
+      {"measure", normals, normals, "--samples", "100", "--align", "rigid", "--aligned", onto});
+  CHECK_THAT(told.err, Contains("normals of normals.obj are left out of onto.ply"));
+  CHECK_FALSE(read_mesh(onto).corner_normals);
   CHECK_THAT(aligned(b, "loosely").err, Contains("none, rigid, similarity"));
   const std::string flat = folder / "flat.obj";
   TriangleMesh point = body;

@@ -48,7 +48,7 @@ const std::vector<Subcommand> subcommands = {
      {"--landmarks"},
      2},
     {"group", {"", "--template", "--landmarks"}, {"-o"}},
-    {"measure", {"", ""}, {"--per-vertex", "--json"}, {}, 2},
+    {"measure", {"", ""}, {"--per-vertex", "--aligned", "--json"}, {}, 2},
     {"paint", {"", "--image", "--sphere"}, {"-o"}, {"--image"}},
     {"remesh",
      {"", "--sphere", "--grid like:"},

@@ -67,6 +67,58 @@ TEST_CASE("distance: a plane that is shifted is that far away everywhere, to the
   CHECK(distance.diagonal_second == Approx(std::sqrt(98)));
 }
 
+TEST_CASE("distance: what is nearest to the border of the other is left out, and its share told") {
+  // Over the smaller square lie 49 of the larger one's 100 cells, and 7 × 7 vertices within its
+  // rim.
+  const DistanceOptions plain{.samples = 20000, .vertices = true},
+      without{.samples = 20000, .vertices = true, .leave_out_borders = true};
+  const SurfaceDistance distance = measure_distance(plane(10, 0), plane(7, 0.25), without);
+  CHECK(distance.forth.max == 0.25);
+  CHECK(distance.forth.mean == 0.25);
+  CHECK(distance.forth.p99 == 0.25);
+  CHECK(distance.forth.max_bound == std::numeric_limits<double>::infinity());
+  const auto& marks = distance.forth.left_out_vertices;
+  REQUIRE(marks.size() == 121);
+  for (int i = 0; i <= 10; ++i)
+    for (int j = 0; j <= 10; ++j) {
+      const bool is_within = i > 0 && i < 7 && j > 0 && j < 7;
+      CHECK(marks[static_cast<std::size_t>(11 * i + j)] == !is_within);
+    }
+  CHECK(distance.forth.at_vertices[120] == Approx(std::sqrt(18.0625)));  // told all the same
+  CHECK(distance.forth.left_out.value() == Approx(0.51).margin(0.005));
+  CHECK(distance.forth.samples == std::llround(20121 * (1 - distance.forth.left_out.value())));
+  CHECK(distance.back.max == 0.25);
+  CHECK(distance.back.left_out.value() == Approx(15 / 20064.).epsilon(1e-12));  // two of its sides
+  CHECK_FALSE(measure_distance(plane(10, 0), plane(7, 0.25), plain).forth.left_out);
+  // A surface lies on its own border, not beyond it.
+  const SurfaceDistance same = measure_distance(plane(5, 1), plane(5, 1), without);
+  CHECK(same.forth.left_out == 0.0);
+  CHECK(same.max() == 0);
+  TriangleMesh beside = plane(3, 0);
+  beside.positions.rowwise() += Eigen::RowVector3d(20, 0, 0);
+  CHECK_THROWS_WITH(measure_distance(beside, plane(7, 0), without),
+                    Catch::Contains("nearest to the border of the other"));
+}
+
+TEST_CASE("distance: a seam of copies is no border, a hole is one") {
+  TriangleMesh ball = icosphere(2), seamed{Points(3 * ball.face_count(), 3), ball.triangles};
+  for (Face f = 0; f < ball.face_count(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      seamed.positions.row(3 * f + k) = ball.positions.row(ball.triangles(f, k));
+      seamed.triangles(f, k) = 3 * f + k;
+    }
+  const TriangleMesh inner = scaled(icosphere(3), 0.9);
+  const DistanceOptions options{.samples = 20000, .leave_out_borders = true};
+  CHECK(measure_distance(inner, seamed, options).forth.left_out == 0.0);
+  CHECK(measure_distance(inner, ball, options).forth.left_out == 0.0);
+  const int all = ball.face_count();
+  ball.triangles.conservativeResize(all / 2, 3);
+  const SurfaceDistance half = measure_distance(inner, ball, options);
+  CHECK(half.forth.left_out.value() == Approx(0.5).margin(0.05));
+  CHECK(half.forth.max < 0.11);
+  CHECK(half.back.left_out == 0.0);
+}
+
 TEST_CASE("distance: concentric spheres, within what their own triangles are off") {
   const TriangleMesh inner = icosphere(4), outer = scaled(icosphere(4), 1.5);
   const double sag = 0.0021;  // of icosphere(4): 1 − the least height of a triangle over the centre

@@ -464,6 +464,25 @@ def test_a_surface_is_no_distance_from_itself(mapped):
     assert 0 < farther.rms < farther.max <= farther.max_bound and farther.forth.samples > 0
 
 
+def test_what_lies_over_holes_is_left_out():
+    found = sp.measure((0.9 * V, F), (V, F[: len(F) // 2]), samples=2000, leave_out_border=True)
+    marks = found.forth.left_out_vertices
+    assert 0 < found.forth.left_out < 1 and found.back.left_out == 0 and not found.back.left_out_vertices.any()
+    assert marks.shape == (len(V),) and marks.any() and found.forth.at_vertices[~marks].max() <= found.forth.max < found.forth.at_vertices.max()
+    assert found.forth.max_bound == np.inf and sp.measure((V, F), (V, F), samples=100).forth.left_out is None
+
+
+def test_meshes_far_apart_or_in_two_units_are_asked_about():
+    with pytest.warns(sp.LossWarning, match='farther than either is large.*align="rigid" first puts the second'):
+        sp.measure((V, F), (V + 1e6, F), samples=100)
+    with pytest.warns(sp.LossWarning, match="first is 1000 times smaller than second, .* mm and m"):
+        sp.measure((V, F), (1000 * V, F), samples=100)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        sp.measure((V, F), (V + 1e6, F), samples=100, align="rigid")
+        sp.measure((V, F), (V + 0.01, F), samples=100)
+
+
 def test_the_distance_of_every_vertex_and_its_side(mapped):
     larger = 1.1 * V
     inside = sp.measure(mapped, (larger, F), samples=2000, signed=True)

@@ -8,18 +8,24 @@
 #include <utility>
 
 #include "arguments/ends.h"
+#include "arguments/mesh_names.h"
 #include "commands/command.h"
 #include "commands/surfaces.h"
 #include "console/places.h"
 #include "elementary.h"
+#include "io/attributes/other_coordinates.h"
 #include "io/data_comments.h"
 #include "measure/enclosure.h"
 #include "mesh/box.h"
 #include "number_text.h"
+#include "reports/told_losses.h"
+#include "sphparam/io/certified_files.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/up_axis.h"
 #include "sphparam/measure/alignment.h"
+#include "sphparam/measure/coordinates_apart.h"
+#include "sphparam/mesh/mass_properties.h"
 #include "sphparam/records/distance_record.h"
 #include "sphparam/render/coloured_values.h"
 
@@ -38,6 +44,7 @@ constexpr char summary[] =
     "  sphparam measure scan.ply part.stl --signed --per-vertex deviation.ply --range -0.1,0.1\n"
     "  sphparam measure scan.ply part.stl --within 0.1\n"
     "  sphparam measure part.stl scan.ply --align rigid\n"
+    "  sphparam measure part.stl scan.ply --align rigid --leave-out-border --aligned onto.ply\n"
     "  sphparam measure visit1.sph.ply visit2.sph.ply --growth --per-vertex growth.ply\n"
     "\n"
     "Both directions: samples spread evenly over each surface, and their nearest points on the\n"
@@ -54,6 +61,7 @@ struct MeasureArguments : CommonArguments {
   DistanceOptions options;
   std::string sampled = "faces";
   std::string per_vertex;
+  std::string aligned;                                  // the second as it was put onto the first
   RepairArguments repair;                               // of both
   bool upright = false;                                 // as their files say what is up
   Align align = Align::None;                            // the second onto the first, before
@@ -83,7 +91,12 @@ void require_sensible(const MeasureArguments& arguments) {
     throw UsageMistake("--range is of the colours of --per-vertex: name a file for these");
   if (arguments.range && arguments.growth)
     throw UsageMistake("--range is of the colours of distances: with --growth they are of areas");
-  check_places({{"--per-vertex", arguments.per_vertex}, {"--json", arguments.json}});
+  require_mesh_name("--aligned", "B on A", arguments.aligned);
+  check_places({{"--per-vertex", arguments.per_vertex},
+                {"--aligned", arguments.aligned},
+                {"--json", arguments.json}});
+  if (!arguments.aligned.empty() && arguments.align == Align::None)
+    throw UsageMistake("--aligned is of B as --align puts it onto A: give that as well");
 }
 
 /// What closes the second, where that is what is wrong; else empty.
@@ -143,53 +156,26 @@ std::vector<DistanceLimit> judge(const MeasureArguments& arguments,
   return limits;
 }
 
-/// Sides of the box about the triangles, ascending.
-Vector3 sides_of(const MeshFile& file) {
-  const Box box = surface_box(file.mesh);
-  Vector3 sides = box.upper - box.lower;
-  std::ranges::sort(sides);
-  return sides;
-}
-
-/// Two units of which one is so many of the other.
-struct UnitRatio {
-  double ratio;
-  const char* words;
-};
-constexpr std::array unit_ratios = {UnitRatio{10, "mm and cm"}, UnitRatio{25.4, "mm and inches"},
-                                    UnitRatio{100, "cm and m"}, UnitRatio{1000, "mm and m"}};
-
-/// One body in two units? A part of a whole, or another body, is rarely of the same proportions and
-/// just so many times as large.
+/// One body in two units?
 void tell_units(const MeasureArguments& arguments, const MeshFile& first, const MeshFile& second,
                 Session& session) {
-  constexpr double alike = 0.15, about = 1.25;
-  const Vector3 one = sides_of(first), other = sides_of(second);
-  if (!(one[2] > 0 && other[2] > 0)) return;
-  if ((one / one[2] - other / other[2]).cwiseAbs().maxCoeff() > alike) return;
-  const double ratio = std::max(one[2] / other[2], other[2] / one[2]);
-  for (const UnitRatio& unit : unit_ratios) {
-    if (ratio < unit.ratio / about || ratio > unit.ratio * about) continue;
-    session.warn({display_name(one[2] < other[2] ? arguments.first : arguments.second) + " is " +
-                  short_number(ratio, 4) + " times smaller than " +
-                  display_name(one[2] < other[2] ? arguments.second : arguments.first) +
-                  ", and of the same proportions: are both in one unit, not in " + unit.words +
-                  "?"});
-    return;
-  }
+  const std::optional<UnitsApart> apart = units_apart(first.mesh, second.mesh);
+  if (!apart) return;
+  const bool first_is_smaller = apart->smaller == Side::First;
+  session.warn({display_name(first_is_smaller ? arguments.first : arguments.second) + " is " +
+                short_number(apart->ratio, 4) + " times smaller than " +
+                display_name(first_is_smaller ? arguments.second : arguments.first) +
+                ", and of the same proportions: are both in one unit, not in " + apart->units +
+                "?"});
 }
 
 /// One body in two systems of coordinates? Nobody asks how far what is elsewhere is.
 void tell_far_apart(const MeasureArguments& arguments, const MeshFile& first,
                     const MeshFile& second, Session& session) {
-  const Box one = surface_box(first.mesh), other = surface_box(second.mesh);
-  const Vector3 apart =
-      (one.lower - other.upper).cwiseMax(other.lower - one.upper).cwiseMax(Vector3::Zero());
-  const double larger =
-      std::max((one.upper - one.lower).norm(), (other.upper - other.lower).norm());
-  if (!(larger > 0 && apart.norm() > larger)) return;
+  const double apart = far_apart(first.mesh, second.mesh);
+  if (apart == 0) return;
   session.warn({display_name(arguments.first) + " and " + display_name(arguments.second) + " are " +
-                short_number(apart.norm(), 4) +
+                short_number(apart, 4) +
                 " from one another, farther than either is large: "
                 "has one been moved, as a global shift of coordinates does? --align rigid first "
                 "puts B onto A"});
@@ -217,6 +203,7 @@ bool is_nearer_turned(const MeshFile& first, const MeshFile& second, double rms,
   options.samples = std::min(options.samples, enough);
   options.extremes = false;
   options.deviations = false;
+  options.leave_out_borders = false;
   options.threads = session.threads();
   return measure_distance(first.mesh, turned_as(first, second), options).rms() <= much * rms;
 }
@@ -325,6 +312,7 @@ std::string free_name(const MeshFile& file, std::string name) {
 /// Numbers of its own that are called as those to come get another name. Returns old and new.
 Renamed make_way(MeshFile& file, const MeasureArguments& arguments) {
   Words taken = {"error", "red", "green", "blue", "alpha"};
+  if (arguments.options.leave_out_borders) taken.push_back("left_out");
   if (arguments.options.deviations) taken.push_back("deviation");
   if (arguments.growth) taken.push_back("growth");
   Renamed renamed;
@@ -350,20 +338,75 @@ void tell_renamed(const MeasureArguments& arguments, const Renamed& renamed, Ses
                       ": " + joined(words));
 }
 
+/// Marks what was left out, in grey; `values` of it have no part in the scale of the colours.
+MeshFile with_left_out(MeshFile file, const std::vector<std::uint8_t>& left_out) {
+  constexpr double grey = 128;
+  for (Property& property : file.vertex_properties) {
+    if (property.name != "red" && property.name != "green" && property.name != "blue") continue;
+    for (std::size_t v = 0; v < left_out.size(); ++v)
+      if (left_out[v]) property.values[v] = grey;
+  }
+  file.set_vertex_property(
+      {"left_out", ScalarType::Uint8, std::vector<double>(left_out.begin(), left_out.end())});
+  return file;
+}
+
+VectorX without_left_out(VectorX values, const std::vector<std::uint8_t>& left_out) {
+  for (std::size_t v = 0; v < left_out.size(); ++v)
+    if (left_out[v]) values[static_cast<Eigen::Index>(v)] = 0;
+  return values;
+}
+
 /// A with each vertex's distance to B, and the side, where that is wanted.
 MeshFile with_distances(const MeasureArguments& arguments, MeshFile file,
                         const OneSidedDistance& distance) {
   const VectorX& values = distance.at_vertices;
-  const std::string about = "distance to " + display_name(arguments.second);
-  if (!distance.deviation)
-    return with_coloured_values(std::move(file), "error", values, about,
+  const auto& left_out = distance.left_out_vertices;
+  const std::string about =
+      "distance to " + display_name(arguments.second) +
+      (left_out.empty() ? "" : ", grey where nearest to its border and left out");
+  const auto set = [&](const char* name, const VectorX& all) {
+    file.set_vertex_property(
+        {name, ScalarType::Float64, std::vector<double>(all.begin(), all.end())});
+  };
+  if (const auto& deviation = distance.deviation) {
+    file = with_coloured_values(
+        std::move(file), "deviation", without_left_out(deviation->at_vertices, left_out),
+        about + ", less than 0 inside", {.diverges = true, .range = arguments.range});
+    set("deviation", deviation->at_vertices);
+  } else {
+    file = with_coloured_values(std::move(file), "error", without_left_out(values, left_out), about,
                                 {.range = arguments.range});
-  file = with_coloured_values(std::move(file), "deviation", distance.deviation->at_vertices,
-                              about + ", less than 0 inside",
-                              {.diverges = true, .range = arguments.range});
-  file.set_vertex_property(
-      {"error", ScalarType::Float64, std::vector<double>(values.begin(), values.end())});
-  return file;
+  }
+  set("error", values);
+  return left_out.empty() ? file : with_left_out(std::move(file), left_out);
+}
+
+const std::vector<std::string> normal_names = {"nx", "ny", "nz"};
+
+bool has_normals(const MeshFile& file) {
+  return file.corner_normals || file.find_vertex_property("nx") || file.find_face_property("nx");
+}
+
+/// The second in the first's coordinates: what points up there is what does in the first. Its
+/// normals were of its own.
+void write_aligned(const MeasureArguments& arguments, const MeshFile& first, MeshFile second,
+                   Session& session) {
+  if (has_normals(second))
+    session.console.say("  normals of " + display_name(arguments.second) + " are left out of " +
+                        output_name(arguments.aligned) + ": they are of where it was");
+  Points positions = std::move(second.mesh.positions);
+  move_into(second, first, std::move(positions));
+  remove_properties(second.face_properties, normal_names);
+  tell_losses(arguments.aligned, add_mesh(session.files, arguments.aligned, std::move(second)),
+              session.console);
+}
+
+/// What it encloses, where it is closed.
+std::optional<double> volume_of(const MeshFile& file) {
+  if (unclosed_edges(file.mesh.triangles) > 0) return std::nullopt;
+  const std::optional<MassProperties> body = mass_properties(file.mesh);
+  return body ? std::optional(std::abs(body->volume)) : std::nullopt;
 }
 
 /// The exit code.
@@ -409,6 +452,8 @@ int run_measure(MeasureArguments& arguments) {
                            .upright = arguments.upright,
                            .alignment = alignment,
                            .growth = growth,
+                           .first_volume = volume_of(first),
+                           .second_volume = volume_of(second),
                            .limits = judge(arguments, distance)};
   if (!arguments.per_vertex.empty()) {
     MeshFile file = first;
@@ -419,9 +464,14 @@ int run_measure(MeasureArguments& arguments) {
     session.files.add(arguments.per_vertex, serialise_mesh(arguments.per_vertex, file));
     record.outputs.emplace_back("per_vertex", arguments.per_vertex);
   }
+  if (!arguments.aligned.empty()) {
+    write_aligned(arguments, first, second, session);
+    record.outputs.emplace_back("aligned", arguments.aligned);
+  }
   record.seconds = session.stopwatch.seconds();
   session.add_report([&] { return to_json(record); });
-  const bool data_goes_out = is_stream(arguments.json) || is_stream(arguments.per_vertex);
+  const bool data_goes_out =
+      is_stream(arguments.json) || is_stream(arguments.per_vertex) || is_stream(arguments.aligned);
   if (!arguments.quiet && !data_goes_out) session.files.add("-", to_text(record));
   session.publish();
   return tell_exceeded(record.limits);
@@ -471,6 +521,11 @@ void declare_options(Declaration& command, MeasureArguments& arguments) {
           {{"none", Align::None}, {"rigid", Align::Rigid}, {"similarity", Align::Similarity}},
           "First put B onto A, turned and moved until samples of both are as near as they come, "
           "leaving out what one of them lacks; similarity: also scaled")
+      .text("--aligned", arguments.aligned, "FILE", "B as --align puts it onto A")
+      .written()
+      .flag("--leave-out-border", options.leave_out_borders,
+            "Leave out points whose nearest point lies on the border of the other mesh, as those "
+            "over holes of a scan and beyond its end do; their share is told")
       .json(arguments);
   declare_length(command, "--within", arguments.within,
                  "Also which share of each surface is no farther than this from the other; % of "

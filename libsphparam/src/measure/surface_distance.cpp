@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "measure/border.h"
 #include "measure/enclosure.h"
 #include "measure/farthest_point.h"
 #include "measure/measurable_side.h"
@@ -42,6 +43,7 @@ struct Tally {
   double most_inside = std::numeric_limits<double>::infinity(), most_outside = -most_inside;
   double signed_sum = 0;
   std::int64_t count = 0, near = 0;  // `near`: within what is asked for
+  std::int64_t left_out = 0;         // and in nothing else here
   Vector3 farthest = Vector3::Zero();
 
   /// `deviation`: the distance, less than 0 inside.
@@ -71,6 +73,7 @@ struct Tally {
     signed_sum += other.signed_sum;
     count += other.count;
     near += other.near;
+    left_out += other.left_out;
   }
   void add_deviation(double deviation) {
     most_inside = std::min(most_inside, deviation);
@@ -95,6 +98,11 @@ struct Kept {
     const auto at = static_cast<size_t>(first + i / stride);
     distances[at] = distance;
     deviations[at] = deviation;
+  }
+  void leave_out(std::int64_t first, std::int64_t i) { put(first, i, NAN, NAN); }
+  void forget_left_out() {
+    for (std::vector<double>* values : {&distances, &deviations})
+      std::erase_if(*values, [](double value) { return std::isnan(value); });
   }
 };
 
@@ -128,6 +136,7 @@ struct Meter {
 struct Target {
   const TriangleMesh& mesh;
   RayScene scene;
+  std::optional<Border> border = {};  // none: what is nearest to it is not asked for
 };
 
 /// One surface's points on the way to another.
@@ -146,8 +155,12 @@ struct Direction {
     return is_inside ? -distance : distance;
   }
 
-  /// measure(i, distance, face, point, tally) is told how far point_at(i) is from the other
-  /// surface, and from which of its faces; where that is no more than `enough`, from any so near.
+  bool leaves_out(double distance, const SurfacePoint& nearest) const {
+    return to.border && distance > noise && to.border->holds(nearest);
+  }
+
+  /// measure(i, distance, nearest, point, tally) is told how far point_at(i) is from the other
+  /// surface, and from where on it; where that is no more than `enough`, from any so near.
   template <class PointAt, class Measure>
   Tally measure(std::int64_t count, const PointAt& point_at, double enough,
                 const Measure& measure) {
@@ -162,7 +175,7 @@ struct Direction {
           const Vector3 point = point_at(i);
           const NearestPoint found = to.scene.nearest(point, guess, enough * enough);
           guess = found.on.face;
-          measure(i, std::sqrt(found.squared_distance), found.on.face, point, part);
+          measure(i, std::sqrt(found.squared_distance), found.on, point, part);
         }
       });
       for (const Tally& part : parts) all.add(part);
@@ -190,24 +203,33 @@ std::vector<char> used_vertices(const TriangleMesh& mesh) {
   return used;
 }
 
-Tally measure_vertices(Direction& direction, VertexDistances& result, VectorX& deviations) {
+/// `left_out`: a mark a vertex, where some may be.
+Tally measure_vertices(Direction& direction, VertexDistances& result, VectorX& deviations,
+                       std::vector<std::uint8_t>& left_out) {
   const TriangleMesh& other = direction.to.mesh;
   const std::vector<char> used = used_vertices(direction.from);
   deviations.resize(direction.inside ? direction.from.vertex_count() : 0);
   result.distances.resize(direction.from.vertex_count());
   result.nearest.resize(used.size());
+  if (direction.to.border) left_out.resize(used.size());
   return direction.measure(
       direction.from.vertex_count(),
       [&](std::int64_t v) { return direction.from.position(static_cast<Vertex>(v)); }, 0,
-      [&](std::int64_t v, double distance, Face face, const Vector3& point, Tally& tally) {
+      [&](std::int64_t v, double distance, const SurfacePoint& nearest, const Vector3& point,
+          Tally& tally) {
         // From where squares are no numbers, which no used vertex is, all of the other is as far.
         result.distances[v] = std::isfinite(distance)
                                   ? distance
                                   : (point - other.position(other.triangles(0, 0))).stableNorm();
-        result.nearest[static_cast<size_t>(v)] = face;
+        result.nearest[static_cast<size_t>(v)] = nearest.face;
         const double deviation = direction.deviation(result.distances[v], point);
         if (direction.inside) deviations[v] = deviation;
-        if (used[static_cast<size_t>(v)]) {
+        const bool leaves_out = direction.leaves_out(distance, nearest);
+        if (leaves_out) left_out[static_cast<size_t>(v)] = 1;
+        if (!used[static_cast<size_t>(v)]) return;
+        if (leaves_out) {
+          ++tally.left_out;
+        } else {
           tally.add(distance, deviation, point);
           tally.near += distance <= direction.within;
         }
@@ -218,15 +240,20 @@ template <class Samples>
 Tally measure_samples(Direction& direction, const Samples& samples, Kept& kept) {
   const double noise = direction.noise;
   const std::int64_t first = kept.make_room(samples.count());
-  return direction.measure(
-      samples.count(), samples, noise,
-      [&](std::int64_t i, double distance, Face, const Vector3& point, Tally& tally) {
-        const double apart = distance <= noise ? 0 : distance;
-        const double deviation = direction.deviation(apart, point);
-        tally.add(apart, deviation, point);
-        tally.near += apart <= direction.within;
-        kept.put(first, i, apart, deviation);
-      });
+  return direction.measure(samples.count(), samples, noise,
+                           [&](std::int64_t i, double distance, const SurfacePoint& nearest,
+                               const Vector3& point, Tally& tally) {
+                             if (direction.leaves_out(distance, nearest)) {
+                               ++tally.left_out;
+                               kept.leave_out(first, i);
+                               return;
+                             }
+                             const double apart = distance <= noise ? 0 : distance;
+                             const double deviation = direction.deviation(apart, point);
+                             tally.add(apart, deviation, point);
+                             tally.near += apart <= direction.within;
+                             kept.put(first, i, apart, deviation);
+                           });
 }
 
 /// Throws: UnmeasurableSurface where there is nothing to draw from.
@@ -255,7 +282,8 @@ std::int64_t count_points(const TriangleMesh& mesh, const DistanceOptions& optio
 /// The points of one side that were looked at: `samples`, those of mean and RMS, and all.
 struct MeasuredPoints {
   VertexDistances at_vertices;
-  VectorX deviations;  // of vertices
+  VectorX deviations;                  // of vertices
+  std::vector<std::uint8_t> left_out;  // marks of vertices, where some may be
   Tally samples, all;
   Kept kept;  // of samples
 };
@@ -267,6 +295,10 @@ void keep_vertices(const Direction& direction, MeasuredPoints& points) {
   std::int64_t i = 0;
   for (Eigen::Index v = 0; v < std::ssize(used); ++v) {
     if (!used[static_cast<size_t>(v)]) continue;
+    if (!points.left_out.empty() && points.left_out[static_cast<size_t>(v)]) {
+      points.kept.leave_out(first, i++);
+      continue;
+    }
     const double distance = points.at_vertices.distances[v];
     points.kept.put(first, i++, distance, direction.inside ? points.deviations[v] : distance);
   }
@@ -276,7 +308,8 @@ MeasuredPoints measure_points(Direction& direction, const DistanceOptions& optio
   MeasuredPoints points;
   points.kept.stride = kept_stride(direction.from, options);
   if (asks_vertices(options))
-    points.all = measure_vertices(direction, points.at_vertices, points.deviations);
+    points.all =
+        measure_vertices(direction, points.at_vertices, points.deviations, points.left_out);
   if (options.vertices) {
     points.samples.add(points.all);
     keep_vertices(direction, points);
@@ -290,6 +323,10 @@ MeasuredPoints measure_points(Direction& direction, const DistanceOptions& optio
     points.samples.add(measure_samples(direction, on_faces, points.kept));
   }
   points.all.add(points.samples);
+  if (points.samples.count == 0)
+    throw UnmeasurableSurface(direction.side,
+                              "all of it is nearest to the border of the other, and left out");
+  points.kept.forget_left_out();
   return points;
 }
 
@@ -299,7 +336,7 @@ FarthestPoint farthest_of(const MeasuredPoints& points, const Direction& directi
   const FarthestPoint known{.point = points.all.farthest,
                             .distance = points.all.max,
                             .at_most = std::numeric_limits<double>::infinity()};
-  if (!options.extremes) return known;
+  if (!options.extremes || options.leave_out_borders) return known;
   return find_farthest(direction.from, points.at_vertices, direction.to.mesh, direction.to.scene,
                        known, options.samples, options.threads);
 }
@@ -346,7 +383,12 @@ OneSidedDistance measure_one_side(Side side, const TriangleMesh& from, const Tar
                              .p99 = quantile(points.kept.distances, 0.99),
                              .samples = points.samples.count,
                              .farthest = farthest.point,
-                             .at_vertices = std::move(points.at_vertices.distances)};
+                             .at_vertices = std::move(points.at_vertices.distances),
+                             .left_out_vertices = std::move(points.left_out)};
+  if (options.leave_out_borders) {
+    const auto left_out = static_cast<double>(points.samples.left_out);
+    result.left_out = left_out / (count + left_out);
+  }
   if (options.within) result.within = static_cast<double>(points.samples.near) / count;
   if (inside) result.deviation = deviation_of(points, direction, result);
   return result;
@@ -391,9 +433,12 @@ void scale_lengths(SurfaceDistance& distance, double scale) {
 SurfaceDistance measure_in_range(const TriangleMesh& first, const TriangleMesh& second,
                                  const DistanceOptions& options) {
   report(options.progress, "trees", 0);
-  const Target to_first{first, RayScene(first)};
+  const auto border_of = [&](const TriangleMesh& mesh) {
+    return options.leave_out_borders ? std::optional<Border>(mesh) : std::nullopt;
+  };
+  const Target to_first{first, RayScene(first), border_of(first)};
   report(options.progress, "trees", 0.5);
-  const Target to_second{second, RayScene(second)};
+  const Target to_second{second, RayScene(second), border_of(second)};
   std::optional<Enclosure> inside;
   if (options.deviations) inside.emplace(options.enclosing ? *options.enclosing : second);
   const Enclosure* const enclosed = inside ? &*inside : nullptr;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -20,12 +21,17 @@ namespace sphparam {
 
 namespace {
 
-Json mesh_json(const std::string& path, const MeshFile& file, double diagonal) {
+/// Null of nothing.
+Json number_json(const std::optional<double>& number) { return number ? Json(*number) : Json(); }
+
+Json mesh_json(const std::string& path, const MeshFile& file, double diagonal,
+               const std::optional<double>& volume) {
   return {{"file", path},
           {"format", file.format},
           {"vertices", file.mesh.vertex_count()},
           {"triangles", file.mesh.face_count()},
           {"diagonal", diagonal},
+          {"volume", number_json(volume)},
           {"notes", file.notes}};
 }
 
@@ -50,6 +56,7 @@ Json side_json(const OneSidedDistance& side, double own_diagonal, double other_d
                  {"mean", side.mean / reference},
                  {"min", side.min / reference}}}};
   if (side.within) json["within"] = {{"length", *within}, {"share", *side.within}};
+  if (side.left_out) json["left_out"] = *side.left_out;
   return json;
 }
 
@@ -186,35 +193,63 @@ std::string within_line(const DistanceRecord& record) {
          " of 2\n";
 }
 
+/// Empty where nothing was to be left out.
+std::string left_out_line(const SurfaceDistance& distance) {
+  if (!distance.forth.left_out) return "";
+  const auto share = [](double of) { return of > 0 ? percent(of) : "0 %"; };
+  return "left out, nearest to the border of the other: " + share(*distance.forth.left_out) +
+         " of 1, " + share(*distance.back.left_out) + " of 2\n";
+}
+
+/// Empty where one is open.
+std::string volume_line(const DistanceRecord& record) {
+  if (!record.first_volume || !record.second_volume) return "";
+  const double first = *record.first_volume, second = *record.second_volume;
+  const double gained = second - first;
+  std::string text =
+      "volume: " + short_number(first, 6) + " of 1, " + short_number(second, 6) + " of 2";
+  if (gained != 0)
+    text += ", " + short_number(std::abs(gained), 6) + (gained > 0 ? " more (" : " less (") +
+            short_number(100 * gained / first, 3) + " %)";
+  return text + "\n";
+}
+
+/// What is known of points that were not looked at.
+std::string bound_words(const SurfaceDistance& distance) {
+  if (distance.forth.left_out) return "; of samples and vertices";
+  return "; no point is farther than " + short_number(distance.max_bound(), 6);
+}
+
 }  // namespace
 
 std::string to_json(const DistanceRecord& record) {
   const SurfaceDistance& distance = record.distance;
   const double first = distance.diagonal_first, second = distance.diagonal_second;
   const std::optional<double>& within = record.options.within;
-  Json json = {{"sphparam", version},
-               {"command", "measure"},
-               {"first", mesh_json(record.first, record.first_file, first)},
-               {"second", mesh_json(record.second, record.second_file, second)},
-               {"sampled", sampled_json(record.options)},
-               {"upright", record.upright},
-               {"alignment", record.alignment ? alignment_json(*record.alignment) : Json()},
-               {"first_to_second", forth_json(distance, within)},
-               {"second_to_first", side_json(distance.back, second, first, first, within)},
-               {"two_sided",
-                {{"RMS", distance.rms()},
-                 {"max", distance.max()},
-                 {"max_bound", distance.max_bound()},
-                 {"mean", distance.mean()},
-                 {"HD95", distance.p95()},
-                 {"relative",
-                  {{"RMS", distance.rms() / first},
-                   {"max", distance.max() / first},
-                   {"mean", distance.mean() / first}}}}},
-               {"limits", limits_json(record.limits)},
-               {"renamed", pairs_json(record.renamed)},
-               {"outputs", pairs_json(record.outputs)},
-               {"seconds", record.seconds}};
+  Json json = {
+      {"sphparam", version},
+      {"command", "measure"},
+      {"first", mesh_json(record.first, record.first_file, first, record.first_volume)},
+      {"second", mesh_json(record.second, record.second_file, second, record.second_volume)},
+      {"sampled", sampled_json(record.options)},
+      {"upright", record.upright},
+      {"alignment", record.alignment ? alignment_json(*record.alignment) : Json()},
+      {"first_to_second", forth_json(distance, within)},
+      {"second_to_first", side_json(distance.back, second, first, first, within)},
+      {"two_sided",
+       {{"RMS", distance.rms()},
+        {"max", distance.max()},
+        {"max_bound", distance.max_bound()},
+        {"mean", distance.mean()},
+        {"HD95", distance.p95()},
+        {"relative",
+         {{"RMS", distance.rms() / first},
+          {"max", distance.max() / first},
+          {"mean", distance.mean() / first}}}}},
+      {"limits", limits_json(record.limits)},
+      {"renamed", pairs_json(record.renamed)},
+      {"outputs", pairs_json(record.outputs)},
+      {"seconds", record.seconds}};
   if (record.growth) json["growth"] = growth_json(*record.growth);
   return text_of(json);
 }
@@ -236,12 +271,13 @@ std::string to_text(const DistanceRecord& record) {
               {distance.max(), distance.mean(), distance.rms(),
                std::max(distance.forth.min, distance.back.min)},
               distance.diagonal_first);
-  text += percentile_rows(distance) + "\n" + within_line(record);
+  text += percentile_rows(distance) + "\n" + left_out_line(distance) + within_line(record);
   if (distance.forth.deviation) text += signed_line(*distance.forth.deviation);
   if (record.growth) text += growth_line(*record.growth);
+  text += volume_line(record);
   text += "farthest: " + place_text(distance.forth.farthest, distance.diagonal_first, " ") +
-          " of 1, " + place_text(distance.back.farthest, distance.diagonal_second, " ") +
-          " of 2; no point is farther than " + short_number(distance.max_bound(), 6) + "\n";
+          " of 1, " + place_text(distance.back.farthest, distance.diagonal_second, " ") + " of 2" +
+          bound_words(distance) + "\n";
   return text;
 }
 

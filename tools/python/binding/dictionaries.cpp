@@ -31,6 +31,14 @@ py::dict as_dict(const OneSidedDistance& distance) {
   dict["p99"] = distance.p99;
   dict["within"] = distance.within;
   dict["at_vertices"] = numbers_or_none(distance.at_vertices);
+  dict["left_out"] = distance.left_out;
+  dict["left_out_vertices"] = py::none();
+  if (!distance.left_out_vertices.empty()) {
+    py::array_t<bool> marks(static_cast<py::ssize_t>(distance.left_out_vertices.size()));
+    std::copy(distance.left_out_vertices.begin(), distance.left_out_vertices.end(),
+              marks.mutable_data());
+    dict["left_out_vertices"] = marks;
+  }
   dict["deviation"] = py::none();
   if (const auto& deviation = distance.deviation)
     dict["deviation"] =

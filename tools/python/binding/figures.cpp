@@ -12,6 +12,7 @@
 #include "binding.h"
 #include "call.h"
 #include "measure/enclosure.h"
+#include "number_text.h"
 #include "sphere/body_centre.h"
 #include "sphparam/io/body_longitudes.h"
 #include "sphparam/io/coef_file.h"
@@ -22,6 +23,7 @@
 #include "sphparam/io/safe_file.h"
 #include "sphparam/io/up_axis.h"
 #include "sphparam/measure/alignment.h"
+#include "sphparam/measure/coordinates_apart.h"
 #include "sphparam/measure/growth.h"
 #include "sphparam/measure/surface_distance.h"
 #include "sphparam/mesh/fillers.h"
@@ -51,11 +53,34 @@ py::object as_object(const std::optional<Alignment>& alignment) {
                         alignment->kept, alignment->reach, alignment->iterations);
 }
 
+/// Are these in one unit and in one system of coordinates? `align` brings together what is not.
+std::vector<std::string> doubts_about_coordinates(const TriangleMesh& first,
+                                                  const TriangleMesh& second,
+                                                  const std::string& align) {
+  std::vector<std::string> doubts;
+  const auto units = align != "similarity" ? units_apart(first, second) : std::nullopt;
+  if (units) {
+    const bool first_is_smaller = units->smaller == Side::First;
+    doubts.push_back(std::string(first_is_smaller ? "first" : "second") + " is " +
+                     short_number(units->ratio, 4) + " times smaller than " +
+                     (first_is_smaller ? "second" : "first") +
+                     ", and of the same proportions: are both in one unit, not in " + units->units +
+                     "?");
+  }
+  if (const double apart = align == "none" ? far_apart(first, second) : 0; apart > 0)
+    doubts.push_back("first and second are " + short_number(apart, 4) +
+                     " from one another, farther than either is large: has one been moved, as a "
+                     "global shift of coordinates does? align=\"rigid\" first puts the second onto "
+                     "the first");
+  return doubts;
+}
+
 /// `align`: "none", "rigid" or "similarity".
 py::dict measure(const Source& first, const Source& second, std::int64_t samples,
                  std::uint64_t seed, const std::set<std::string>& over, bool extremes,
                  bool deviations, const std::optional<double>& within, bool upright,
-                 const std::string& align, int threads, const py::object& progress) try {
+                 const std::string& align, bool leave_out_border, int threads,
+                 const py::object& progress) try {
   using Mesh = std::shared_ptr<TriangleMesh>;
   // What closes holes is no surface.
   const auto surface = [](const MeshFile& file) {
@@ -63,6 +88,7 @@ py::dict measure(const Source& first, const Source& second, std::int64_t samples
   };
   const Mesh one = surface(first.mesh.file), other = surface(second.mesh.file);
   if (upright) turn_as(first.mesh.file, second.mesh.file, *other);
+  const std::vector<std::string> doubts = doubts_about_coordinates(*one, *other, align);
   std::optional<Alignment> alignment;
   const SurfaceDistance found = call(progress, [=, &alignment, &second](const Progress& report) {
     if (align != "none") {
@@ -84,11 +110,13 @@ py::dict measure(const Source& first, const Source& second, std::int64_t samples
                              .deviations = deviations,
                              .enclosing = encloses ? &enclosing : nullptr,
                              .within = within,
+                             .leave_out_borders = leave_out_border,
                              .threads = threads,
                              .progress = report});
   });
   py::dict dict = as_dict(found);
   dict["alignment"] = as_object(alignment);
+  dict["warnings"] = doubts;
   return dict;
 } catch (const UnmeasurableSurface& error) {
   throw py::value_error((error.side() == Side::First ? "first: " : "second: ") +

@@ -231,7 +231,7 @@ class OneSided(NamedTuple):
     max: float
     """Of any point that was looked at."""
     max_bound: float
-    """No point is farther; infinite without ``extremes``."""
+    """No point is farther; infinite without ``extremes`` and with ``leave_out_border``."""
     min: float
     """Of all points that were looked at."""
     samples: int
@@ -252,6 +252,10 @@ class OneSided(NamedTuple):
     """(V,) the distance of every vertex, also of those that no face uses; None without ``extremes``."""
     deviation: Optional[Deviation] = None
     """The same distances with their side, with ``signed`` and from the first to the second; else None."""
+    left_out: Optional[float] = None
+    """The share of the samples that ``leave_out_border`` left out; None without it."""
+    left_out_vertices: Optional[npt.NDArray[np.bool_]] = None
+    """(V,) True of vertices that it left out; ``at_vertices`` has the distance of these too. None without it or without ``extremes``."""
 
 
 class Alignment(NamedTuple):

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, Iterable, Optional, Tuple, Union
 
 from . import _arrays, _core
 from ._figures import Alignment, Distance, one_sided
+from ._losses import tell
 from ._mesh import any_mesh
 from ._progress import Progress, told
 
@@ -37,6 +38,7 @@ def measure(
     within: Optional[float] = None,
     upright: bool = False,
     align: str = "none",
+    leave_out_border: bool = False,
     threads: int = 0,
     progress: Progress = None,
 ) -> Distance:
@@ -63,6 +65,11 @@ def measure(
     align
         ``"rigid"``: the second is first put onto the first, turned and moved until samples of both are as near as
         they come; what one of them lacks is left out. ``"similarity"``: also scaled. ``.alignment`` says how.
+    leave_out_border
+        Leaves out points whose nearest point lies on the border of the other surface, as those over holes of a scan
+        and beyond its end do: ``forth.left_out`` is their share, ``forth.left_out_vertices`` which vertices are.
+
+    Warns where both seem to be one body in two units, or are farther from one another than either is large.
 
     ``forth.at_vertices`` has the distance of every vertex of the first from the second, ``back.at_vertices`` the
     other way.
@@ -79,8 +86,10 @@ def measure(
     with told(progress) as report:
         found = _core.measure(
             meshes[0]._source, meshes[1]._source, samples, seed, words, _arrays.flag(extremes, "extremes"), _arrays.flag(signed, "signed"),
-            None if within is None else _arrays.real(within, "within"), _arrays.flag(upright, "upright"), align, _arrays.threads(threads), report,  # fmt: skip
+            None if within is None else _arrays.real(within, "within"), _arrays.flag(upright, "upright"), align,
+            _arrays.flag(leave_out_border, "leave_out_border"), _arrays.threads(threads), report,  # fmt: skip
         )
+    tell(found.pop("warnings"))
     found["forth"], found["back"] = one_sided(found["forth"]), one_sided(found["back"])
     moved = found.pop("alignment")
     return Distance(**found, alignment=None if moved is None else Alignment(*moved))

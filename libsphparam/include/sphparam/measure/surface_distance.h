@@ -4,6 +4,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "sphparam/mesh/triangle_mesh.h"
 #include "sphparam/progress.h"
@@ -25,6 +26,10 @@ struct DistanceOptions {
   const TriangleMesh* enclosing = nullptr;
   /// Also which share of the samples is no farther than this from the other surface.
   std::optional<double> within = {};
+  /// Leaves out of everything but `at_vertices` the points whose nearest point lies on the border
+  /// of the other surface, as those over its holes and beyond its end do, but not those on it.
+  /// Between samples no maximum is sought then.
+  bool leave_out_borders = false;
   int threads = 0;  // 0: all cores
   Progress progress = {};
 };
@@ -42,9 +47,9 @@ struct SignedDeviation {
 
 /// How far the points of one surface are from another surface.
 struct OneSidedDistance {
-  double max = 0;            // of any point that was looked at: see `max_bound`
-  double max_bound = 0;      // no point is farther; infinite without `extremes`
-  double min = 0;            // of all points that were looked at
+  double max = 0;        // of any point that was looked at: see `max_bound`
+  double max_bound = 0;  // no point is farther; infinite without `extremes`, or what is left out
+  double min = 0;        // of all points that were looked at
   double mean = 0, rms = 0;  // of the samples
   double sd = 0;             // their standard deviation
   /// No more than so much is as far as half, 95 and 99 of 100 samples are, by nearest rank; of
@@ -54,6 +59,10 @@ struct OneSidedDistance {
   std::int64_t samples = 0;            // those of mean and rms
   Vector3 farthest = Vector3::Zero();  // the point at `max`
   VectorX at_vertices;                 // of every vertex; empty where they were not looked at
+  /// With `leave_out_borders`: the share of the samples that was left out (`samples` are the rest),
+  /// and a mark a vertex, 1 where it was; empty where they were not looked at.
+  std::optional<double> left_out = {};
+  std::vector<std::uint8_t> left_out_vertices = {};
   std::optional<SignedDeviation> deviation = {};  // forth, where `deviations` are wanted
 };
 
@@ -90,12 +99,12 @@ class UnmeasurableSurface : public std::invalid_argument {
 /// them; the samples are stratified by area. Requires: some sample wanted, samples ≥ 1. Throws:
 /// std::invalid_argument if not, or for less than 0 as `within`; UnmeasurableSurface where there is
 /// no triangle, one names a vertex that is not there, a coordinate is not finite, what is to be
-/// sampled has no area or length, or the second, or what encloses for it, is to be closed and is
-/// not; Cancelled. Ensures: the
-/// same bits for any number of threads. Cost: about 1 µs a sample and vertex, some times that among
-/// thin triangles, with `extremes` up to 3 µs a sample for the bound, and about 10 µs for the side
-/// of each; memory linear in the meshes, and up to 200 MB for the bound. A point that is equally
-/// far from many triangles, as a ball's centre is from the ball, asks all of them.
+/// sampled has no area or length or is left out as a whole, or the second, or what encloses for it,
+/// is to be closed and is not; Cancelled. Ensures: the same bits for any number of threads. Cost:
+/// about 1 µs a sample and vertex, some times that among thin triangles, with `extremes` up to 3 µs
+/// a sample for the bound, and about 10 µs for the side of each; memory linear in the meshes, and
+/// up to 200 MB for the bound. A point that is equally far from many triangles, as a ball's centre
+/// is from the ball, asks all of them.
 SurfaceDistance measure_distance(const TriangleMesh& first, const TriangleMesh& second,
                                  const DistanceOptions& options = {});
 

@@ -30,6 +30,9 @@ struct DistanceRecord {
   bool upright = false;  // the second was turned as the first stands, by what their files say
   std::optional<Alignment> alignment = {};  // of the second, where that was asked for
   std::optional<Growth> growth = {};  // from the first to the second, where that was asked for
+  /// What each encloses, whichever way it is wound, where it is closed and that is not next to
+  /// nothing.
+  std::optional<double> first_volume = {}, second_volume = {};
   std::vector<DistanceLimit> limits = {};
   std::vector<std::pair<std::string, std::string>> outputs = {};  // what it is, where it is
   double seconds = 0;
@@ -42,7 +45,8 @@ struct DistanceRecord {
 /// beside them; HD95, the larger P95, of both. `alignment`, with the matrix that brings (x, y, z,
 /// 1) of the second there, where the second was put onto the first, else null. `signed` of
 /// the first to the second where the side was asked for; `growth`, of areas and of the least and
-/// the greatest of a triangle, where that was.
+/// the greatest of a triangle, where that was; `left_out`, a share, of each direction. `volume` of
+/// each mesh, or null.
 std::string to_json(const DistanceRecord& record);
 
 /// A table for people.
