@@ -126,6 +126,25 @@ TEST_CASE("simplify: fillers stay fillers, and their rim is made of vertices of 
   for (const Vertex v : left) CHECK(rim.contains(numbers[static_cast<size_t>(v)]));
 }
 
+TEST_CASE("simplify: holes of three edges stay holes") {
+  MeshFile file = egg_file();
+  FillerMarks fillers(static_cast<size_t>(file.mesh.face_count()), 0);
+  std::set<Vertex> taken;  // holes have no vertex in common
+  long holes = 0;
+  for (Face f = 0; f < file.mesh.face_count(); f += 41) {
+    const auto corners = file.mesh.triangles.row(f);
+    if (std::ranges::any_of(corners, [&](Vertex v) { return taken.contains(v); })) continue;
+    taken.insert(corners.begin(), corners.end());
+    fillers[static_cast<size_t>(f)] = 1;
+    ++holes;
+  }
+  REQUIRE(holes > 10);
+  mark_fillers(file, fillers);
+  const MappedMesh level = simplified_meshes(mapped_egg(file), Longs{4 * holes}).front();
+  CHECK(level.mesh().face_count() < file.mesh.face_count() / 2);
+  CHECK(std::ranges::count(level.fillers(), 1) == holes);
+}
+
 TEST_CASE("simplify: what cannot be coarser is left out, and numbers must fall") {
   const TriangleMesh four = tests::tetrahedron();
   const MappedMesh least({.file = {.mesh = four}, .map = {four.positions}});

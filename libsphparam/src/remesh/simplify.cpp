@@ -260,7 +260,24 @@ class Simplifier {
     const int of_from = last_stamp_;
     int common = 0;
     for_each_neighbour_of_other(edge.to, of_from, common);
-    return common == 2 && (on_rim_[at(edge.from)] == 0 || is_of_rim(edge));
+    return common == 2 && (on_rim_[at(edge.from)] == 0 || (is_of_rim(edge) && !ends_rim(edge)));
+  }
+
+  /// Whether a triangle that goes is all there is within a rim of three edges: a hole, which would
+  /// close, or all of the surface between holes.
+  bool ends_rim(const EdgeCollapse& edge) const {
+    return std::ranges::any_of(faces_[at(edge.from)],
+                               [&](Face f) { return has(f, edge.to) && is_alone(f); });
+  }
+
+  /// Whether none of the three triangles beside a triangle is of its kind.
+  bool is_alone(Face f) const {
+    for (int k = 0; k < 3; ++k) {
+      const Vertex a = triangles_(f, k), b = triangles_(f, (k + 1) % 3);
+      for (const Face g : faces_[at(a)])
+        if (g != f && has(g, b) && is_filler(g) == is_filler(f)) return false;
+    }
+    return true;
   }
 
   /// Each neighbour of a vertex of a closed surface is once the next corner of a face.
