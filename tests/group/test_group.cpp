@@ -173,6 +173,17 @@ TEST_CASE("group: a shape that fits in several positions is brought without conf
   }
 }
 
+TEST_CASE("group: shapes that lie alike say that they began where they are nearest in space") {
+  TriangleMesh beside = coil(1);
+  beside.positions.col(0).array() += 0.001;
+  const std::vector<MappedMesh> shapes = {
+      mapped(coil(1), parameterize(coil(1)).map),
+      mapped(beside, parameterize(beside, {.energy = {.lambda = 20}}).map)};
+  const Group group =
+      make_group(shapes, shapes[0], {.alike = true, .rounds = 0, .grid = small_grid});
+  CHECK(group.members[1].start == "places");
+}
+
 TEST_CASE("group: a coil that a turn alone brings is told as such, and little trusted") {
   std::vector<MappedMesh> shapes;
   for (const int turns : {1, 2}) {

@@ -95,10 +95,16 @@ Brought from_match(Match match, std::string start) {
           .warnings = std::move(match.warnings)};
 }
 
+/// As `GroupMember::start` has it.
+std::string start_of(const Match& match) {
+  if (match.made_by == "own map") return "its map";
+  return match.made_by == "turn" || match.made_by == "places" ? match.made_by : "ends";
+}
+
 Brought by_ends(const GroupTarget& target, const MappedMesh& shape, MatchOptions options) {
   options.search = true;
   Match match = match_surfaces(shape, target.mapped, options);
-  std::string start = match.made_by == "turn" ? "turn" : "ends";
+  std::string start = start_of(match);
   for (std::string& warning : match.warnings)
     if (warning.starts_with("nothing but a turn")) warning += "; --start rotation may find more";
   Brought found = from_match(std::move(match), std::move(start));

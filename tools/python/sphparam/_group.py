@@ -58,7 +58,7 @@ class Group:
         whoever else is in the group."""
         self.starts: List[str] = [shape["start"] for shape in found["shapes"]]
         """What each way to the template began with: ``"ends"``, ``"turn"`` where there were none to pair, ``"rotation"``,
-        ``"ellipsoid"``, ``"its map"``; ``"template"``."""
+        ``"ellipsoid"``, ``"places"`` nearest in space (``alike``), ``"its map"``; ``"template"``."""
         self.mirrored: List[bool] = [shape["mirrored"] for shape in found["shapes"]]
         """Whether a shape is its mirror image in the plane x = 0 here, with ``mirror``."""
         self.energies: List[float] = [shape["energy"] or math.nan for shape in found["shapes"]]

@@ -55,7 +55,7 @@ struct GroupMember {
   double size = 0;       // of the resampled one, whoever else is in the group: `surface_size`
   ProcrustesMotion motion;  // that brought them there
   /// What its way began with: "template", "rotation", "ellipsoid", "ends", "turn" where there were
-  /// none, "its map".
+  /// none, "places" nearest in space, "its map".
   std::string start;
   double energy = 0;  // of the last minimisation, a unit of area (`Match::energy`); 0: none
   /// In where its way began: of ends `Match::confidence`; of rotations 1 − (1 − c) / (1 − d), with
