@@ -201,6 +201,8 @@ TEST_CASE("scalar colours: those that a picture has, alone, with their range in 
   };
   CHECK(told("height", {{-2, 2}}) == "colours of height: from -2 (blue) by 0 (white) to 2 (red)");
   CHECK(told("height", {{0, 1}}) == "colours of height: from 0 (dark) to 1 (yellow)");
+  CHECK(told("height", {{101324.5, 101325.5}}) ==
+        "colours of height: from 101324.5 (dark) to 101325.5 (yellow)");
   ball.set_vertex_property({"part", ScalarType::Int32, std::vector<double>(12, 1)});
   ball.comments = {"gifti label 1 0 1 0 1 green", "TextureFile skin.png"};
   CHECK(told("part", {}) == "colours of part: of its table");

@@ -578,7 +578,10 @@ TEST_CASE("bake_record: images, and what they are for") {
   CHECK(Json::parse(to_json(record))["images"][0]["beyond"] == 0.025);
   baked.images[0].range = {101325, 101325.25};
   CHECK_THAT(line_of(baked.images[0], settings),
-             Catch::EndsWith("texels lie beyond 101325 to 101325.2, and end there"));
+             Catch::EndsWith("texels lie beyond 101325 to 101325.25, and end there"));
+  baked.images[0].range = {101324.5, 101325.5};
+  CHECK_THAT(line_of(baked.images[0], settings),
+             Catch::EndsWith("texels lie beyond 101324.5 to 101325.5, and end there"));
   baked.images[0].range = {0, 1};
   baked.images[0].beyond = std::numeric_limits<double>::quiet_NaN();  // not counted
   CHECK_FALSE(Json::parse(to_json(record))["images"][0].contains("beyond"));

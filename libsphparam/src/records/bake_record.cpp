@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "number_text.h"
+#include "range_digits.h"
 #include "records/json_parts.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/version.h"
@@ -50,19 +51,16 @@ Json projection_json(const BakeRecord& record) {
           {"farthest", shares.farthest}};
 }
 
-/// In as many digits as tell them apart, then without powers of ten if doubles have so many.
+/// In as many digits as tell them, then without powers of ten if doubles have so many.
 std::string ends_in_words(const std::pair<double, double>& range) {
   constexpr int few = 3, most = 17;
-  std::string low = short_number(range.first, few), high = short_number(range.second, few);
-  const bool is_clear = range.first == range.second || low != high;
-  const auto is_unclear = [&] {
-    return low == high || (low + high).find("e+") != std::string::npos;
+  const auto words = [&](int digits) {
+    return short_number(range.first, digits) + " to " + short_number(range.second, digits);
   };
-  for (int digits = few + 1; !is_clear && is_unclear() && digits <= most; ++digits) {
-    low = short_number(range.first, digits);
-    high = short_number(range.second, digits);
-  }
-  return low + " to " + high;
+  int digits = range.first == range.second ? few : range_digits(range, few);
+  if (digits > few)
+    while (digits < most && words(digits).find("e+") != std::string::npos) ++digits;
+  return words(digits);
 }
 
 std::string beyond_words(const BakedImage& image) {

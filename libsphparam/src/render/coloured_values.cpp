@@ -5,6 +5,7 @@
 #include "io/attributes/corner_colours.h"
 #include "io/attributes/texture_pages.h"
 #include "number_text.h"
+#include "range_digits.h"
 #include "render/colour.h"
 #include "render/value_paint.h"
 
@@ -40,7 +41,7 @@ void set_colours(MeshFile& file, const std::vector<Rgb>& colours) {
 
 std::string words_of(const std::optional<HeatScale>& scale) {
   if (!scale) return "of its table";
-  constexpr int digits = 6;
+  const int digits = range_digits({scale->low, scale->high}, 6);
   return "from " + short_number(scale->low, digits) +
          (scale->diverges() ? " (blue) by 0 (white) to " : " (dark) to ") +
          short_number(scale->high, digits) + (scale->diverges() ? " (red)" : " (yellow)");
@@ -56,8 +57,10 @@ MeshFile with_coloured_values(MeshFile file, const std::string& name, const Vect
   file.set_vertex_property(
       {name, ScalarType::Float64, std::vector<double>(values.begin(), values.end())});
   if (!about.empty()) {
+    const int digits = range_digits({scale.low, scale.high}, 6);
     file.comments.push_back(name + ": " + one_line(about) + ", colours from " +
-                            short_number(scale.low, 6) + " to " + short_number(scale.high, 6));
+                            short_number(scale.low, digits) + " to " +
+                            short_number(scale.high, digits));
   }
   return file;
 }
