@@ -83,6 +83,8 @@ TEST_CASE("record: the reason is the last error of a log, with what follows a co
         "not this: a hole");
   CHECK(reason_in("sphparam: error: one\nsphparam: error: two\n") == "two");
   CHECK(reason_in("something else\n") == "something else");
+  CHECK(reason_in("sphparam: error: --fail-on-warnings: 1 warning; all outputs are written\n") ==
+        "--fail-on-warnings: 1 warning");  // nothing of a failure is kept
   CHECK(reason_in(
             "  1 hole filled\na.obj: still open → b.ply\nsphparam: warning: w\n  a hint\n}\n") ==
         "a.obj: still open");

@@ -291,6 +291,7 @@ std::string verdict_in(const std::vector<std::string>& lines) {
 
 std::string reason_in(std::string_view log) {
   constexpr std::string_view mark = "sphparam: error: ";
+  constexpr std::string_view kept = "; all outputs are written";  // of a failure nothing is kept
   std::string reason;
   const std::vector<std::string> lines = lines_of(log);
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -300,6 +301,7 @@ std::string reason_in(std::string_view log) {
       reason += " " + lines[i + 1].substr(
                           std::min(lines[i + 1].find_first_not_of(' '), lines[i + 1].size()));
   }
+  if (reason.ends_with(kept)) reason.resize(reason.size() - kept.size());
   return reason.empty() ? verdict_in(lines) : reason;
 }
 
