@@ -342,6 +342,9 @@ TEST_CASE("image codec: a truncated or a bomb-like file is an error, never a cra
     const std::vector<char> cut(bytes.begin(), bytes.begin() + static_cast<long>(keep));
     CHECK_THROWS_AS(decode_image(cut, "cut.png"), ImageError);
   }
+  // Before libpng would print it too.
+  CHECK_THROWS_WITH(decode_image({bytes.begin(), bytes.end() - 20}, "cut.png"),
+                    "cut.png: is cut off, the PNG ends within its pixels: copy or save it again");
   // A header that claims 12,000 × 12,000 pixels in front of next to nothing: 432 MB are within the
   // limit, but not for so few bytes.
   std::vector<char> bomb = bytes;

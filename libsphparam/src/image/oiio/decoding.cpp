@@ -100,6 +100,20 @@ std::string damage_of(OIIO::ImageInput& input, const Jpeg& jpeg, bool head_was_t
   return told.empty() ? "" : "damaged, or ends early: " + told;
 }
 
+/// Whether a PNG ends within its pixels. libpng would print that to standard error by itself.
+/// ISO/IEC 15948, 5.3: behind the signature come chunks of length, name, data and checksum.
+bool is_cut_png(std::string_view bytes) {
+  constexpr size_t signature = 8, head = 8, checksum = 4;
+  for (size_t at = signature; at + head <= bytes.size();) {
+    size_t length = 0;
+    for (size_t k = 0; k < 4; ++k)
+      length = 256 * length + static_cast<unsigned char>(bytes[at + k]);
+    if (length > bytes.size() - at - head) return bytes.substr(at + 4, 4) == "IDAT";
+    at += head + length + checksum;
+  }
+  return false;
+}
+
 /// A file in memory with the head read. The decoder goes before the bytes it reads from.
 class FileInMemory {
  public:
@@ -112,6 +126,8 @@ class FileInMemory {
         memory_(const_cast<char*>(all_.data()), all_.size()),
         input_(OIIO::ImageInput::create(format, false)) {
     if (!input_) fail(OIIO::geterror());
+    if (std::string_view(format) == "png" && is_cut_png(bytes))
+      fail("is cut off, the PNG ends within its pixels: copy or save it again");
     OIIO::ImageSpec config;
     config.attribute("oiio:UnassociatedAlpha", 1);
     if (!input_->set_ioproxy(&memory_)) fail("this decoder cannot read from memory");
