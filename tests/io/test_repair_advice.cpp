@@ -434,6 +434,22 @@ TEST_CASE("repaired: what is left is told by the numbers of the file") {
   }
 }
 
+TEST_CASE("repaired: triangles of one polygon are one place among those that a repair tells") {
+  TriangleMesh cube;
+  cube.positions = Points{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                          {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+  cube.triangles = Triangles{{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4},
+                             {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}};
+  MeshSource source = source_of(cube, "cube.obj");  // its bottom, two triangles, looks inwards
+  source.file.set_face_property(
+      {"source_face", ScalarType::Int32, {0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5}});
+  const MeshSource mended = repaired(source, RepairOptions{});
+  REQUIRE(mended.repairs.size() == 1);
+  CHECK(mended.repairs[0].count == 2);
+  CHECK(mended.repairs[0].elements == std::vector<int>{0});
+  CHECK(mended.repairs[0].message == "2 faces turned over to run like neighbouring faces: faces 0");
+}
+
 TEST_CASE("try_repair: what even repair leaves is told by the numbers of the file") {
   const RepairTrial trial = try_repair(source_of(projective_plane(), "plane.ply"));
   REQUIRE(trial.remaining.size() == 1);

@@ -144,20 +144,21 @@ class Liker {
   void measure(Likeness& found) const {
     const std::vector<SurfacePoint> on = SurfaceMap(found.mapped, other_).forth(options_.threads);
     std::vector<double> apart(on.size());
-    double in = 0, nowhere = 0;
+    double in = 0, nowhere = 0, all = 0;  // all in one order, so that no share exceeds 1
     for (Vertex v = 0; v < areas_.size(); ++v) {
       apart[static_cast<size_t>(v)] =
           (position(other_.mesh(), on[static_cast<size_t>(v)]) - mesh_.mesh().position(v)).norm() /
           diagonal_;
       const double left =
           (found.mapped.map().point(v) - near_.directions.row(v).transpose()).norm();
+      all += areas_[v];
       if (!trusts(v))
         nowhere += areas_[v];
       else if (left <= in_place)
         in += areas_[v];
     }
-    found.in_place = in / areas_.sum();
-    found.nowhere = nowhere / areas_.sum();
+    found.in_place = in / all;
+    found.nowhere = nowhere / all;
     found.median = weighted_median(apart, areas_);
     found.farthest = *std::ranges::max_element(apart);
   }

@@ -34,6 +34,15 @@ std::string places_of(const RepairAction& action) {
   return text.substr(std::min(text.rfind(": "), text.size()));
 }
 
+/// Triangles of one polygon are one place, as of defects. How many fewer there are so.
+long name_polygons_once(std::vector<int>& ids) {
+  const auto are_one = [](int a, int b) { return a == b && a >= 0; };
+  const auto end = std::unique(ids.begin(), ids.end(), are_one);
+  const long fewer = ids.end() - end;
+  ids.erase(end, ids.end());
+  return fewer;
+}
+
 std::vector<RepairAction> by_file_numbers(std::vector<RepairAction> actions,
                                           const MeshSource& source) {
   const FileNumbers numbers(source.file);
@@ -44,9 +53,12 @@ std::vector<RepairAction> by_file_numbers(std::vector<RepairAction> actions,
       if (id < 0) continue;
       id = static_cast<int>(names_faces ? numbers.face_number(id) : numbers.number(id));
     }
+    const long fewer = names_faces ? name_polygons_once(action.elements) : 0;
     if (action.message.ends_with(before)) {
       action.message.resize(action.message.size() - before.size());
-      action.message += places_of(action);
+      RepairAction listed = action;
+      listed.count -= fewer;
+      action.message += places_of(listed);
     }
     const bool made_by_welding = info_of(action.kind).trait == RepairTrait::MayFollowWelding;
     if (source.welded && made_by_welding) action.message = "after welding, " + action.message;
