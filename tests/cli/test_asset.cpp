@@ -7,6 +7,7 @@
 #include "program.h"
 #include "support/joined.h"
 #include "support/test_meshes.h"
+#include "support/torus.h"
 
 namespace sphparam::tests {
 
@@ -202,6 +203,21 @@ TEST_CASE("asset: of parts that lie far apart the share of what joins them is to
   CHECK_THAT(ended.err, Contains("what joins and closes it so is ") &&
                             Contains(" of the map and ") &&
                             Contains("`map --all-components` gives each part a map of its own"));
+}
+
+TEST_CASE("asset: --clear-walls warns where no base colour could cut its walls out") {
+  const Folder folder;
+  TriangleMesh ball = icosphere(2);
+  ball.positions *= 0.3;
+  ball.positions.col(0).array() += 2;
+  write_bytes(folder / "ring.obj", obj_text(joined(torus(24, 12, 1, 0.3), ball)));
+  const Ended ended = sphparam_program({"asset", folder / "ring.obj", "-o", folder / "made",
+                                        "--size", "64", "--no-page", "--resolution", "48",
+                                        "--faces", "2000", "--clear-walls", "--fail-on-warnings"});
+  INFO(ended.err);
+  CHECK(ended.code == 6);
+  CHECK_THAT(ended.err, Contains("warning: --clear-walls: walls that close ways through it are ") &&
+                            Contains("and stay: it has no base colour whose alpha could cut"));
 }
 
 TEST_CASE("asset: --scale is of all lengths, and without it what is too long for metres is told") {

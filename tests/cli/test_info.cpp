@@ -123,6 +123,23 @@ TEST_CASE("info: an unreadable file ends with 3") {
   CHECK(sphparam_program({"info", "-"}, "solid nonsense").code == 3);
 }
 
+TEST_CASE("info: coordinates that float32 makes coarse are a warning, told once") {
+  const Folder folder;
+  TriangleMesh mesh = icosphere(2);
+  mesh.positions.col(1).array() += 5e6;  // metres of UTM
+  mesh.positions = mesh.positions.cast<float>().cast<double>().eval();
+  write_bytes(folder / "utm.obj", obj_text(mesh));
+  const Ended ended =
+      sphparam_program({"info", folder / "utm.obj", "--json", folder / "r.json", "-q"});
+  const Json report = Json::parse(bytes_of(folder / "r.json"));
+  REQUIRE(report["warnings"].size() == 1);
+  CHECK_THAT(
+      report["warnings"][0].get<std::string>(),
+      Contains("utm.obj: coordinates: so far from the origin, numbers of 32 bits are 0.5 apart"));
+  CHECK(sphparam_program({"info", folder / "utm.obj", "--fail-on-warnings"}).code ==
+        (ended.code == 0 ? 6 : ended.code));
+}
+
 TEST_CASE("info: shows the provenance of a written map") {
   const Folder folder;
   const std::string map = folder / "map.sph.ply";

@@ -218,6 +218,8 @@ TEST_CASE("remesh --displace: what makes no sense is refused before any work") {
   const std::string image = folder / "d.exr";
   refused({"--displace", image}, "give --subdiv-fit");
   refused({"--rebuild", folder / "r.ply", "-o", folder / "b.ply"}, "--displace, which is missing");
+  refused({"--displace-size", "512x256", "-o", folder / "b.ply"},
+          "--displace-size is of the image of --displace, which is missing");
   refused({"--subdiv-fit", "loop", "--displace", folder / "d.jpg"}, ".exr or .png");
   refused({"--subdiv-fit", "loop", "--displace", "-"}, ".exr or .png");
   refused({"--subdiv-fit", "loop", "--displace", image, "--depth", "u16"}, "u16 into .png");

@@ -10,11 +10,11 @@ namespace sphparam::cli {
 
 namespace {
 
-bool read_size(const std::string& text, DisplacementSize& size) {
+bool read_size(const std::string& text, std::optional<DisplacementSize>& size) {
   const auto numbers = two_numbers(text, 'x');
   if (!numbers) return false;
   const auto [width, height] = *numbers;
-  size = {width, height};
+  size = DisplacementSize{width, height};
   return width >= 2 && width % 2 == 0 && height >= 1 && std::int64_t{width} * height <= most_texels;
 }
 

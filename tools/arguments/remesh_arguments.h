@@ -40,12 +40,12 @@ struct RemeshArguments : CommonArguments {
   std::string transfer = "all";
   std::optional<TextureOf> uv;
   SampleMode sample = SampleMode::Point;
-  std::optional<Scheme> subdivision;  // fitted to the source
-  std::string limit_output;           // its points at the grid's vertices
-  std::string displacement;           // image of what the fit leaves
-  DisplacementSize displacement_size;
-  std::string rebuilt;    // mesh of fit and image
-  int lods = 0;           // coarser meshes
+  std::optional<Scheme> subdivision;                  // fitted to the source
+  std::string limit_output;                           // its points at the grid's vertices
+  std::string displacement;                           // image of what the fit leaves
+  std::optional<DisplacementSize> displacement_size;  // of it, and of the layout of a grid
+  std::string rebuilt;                                // mesh of fit and image
+  int lods = 0;                                       // coarser meshes
   bool adaptive = false;  // the map relaxed so that detail gets more vertices
   std::string geometry_image;
   std::string normal_image;

@@ -195,6 +195,13 @@ void check_displacement(const RemeshArguments& arguments) {
   require_kind("--rebuild", mesh, "the mesh", {".ply", ".obj"}, ".ply or .obj");
 }
 
+/// The layout of a grid goes by it too. After `check_texture`.
+void check_displacement_size(const RemeshArguments& arguments) {
+  if (arguments.displacement_size && arguments.displacement.empty() &&
+      arguments.uv != TextureOf::Grid)
+    throw UsageMistake("--displace-size is of the image of --displace, which is missing");
+}
+
 std::vector<GridSpec> check_levels(const RemeshArguments& arguments,
                                    const std::optional<GridSpec>& grid) {
   if (arguments.lods == 0) return {};
@@ -245,7 +252,7 @@ void check_texture(RemeshArguments& arguments, const std::optional<GridSpec>& gr
 }
 
 TextureLayout layout_for(const RemeshArguments& arguments, const GridSpec& grid) {
-  const DisplacementSize& size = arguments.displacement_size;
+  const DisplacementSize size = arguments.displacement_size.value_or(DisplacementSize{});
   return texture_layout(grid, std::int64_t{size.width} * size.height);
 }
 
@@ -290,6 +297,7 @@ RemeshRequests check_remesh_arguments(RemeshArguments& arguments) {
   check_displacement(arguments);
   requests.coarser = check_levels(arguments, requests.grid);
   check_texture(arguments, requests.grid);
+  check_displacement_size(arguments);
   if (arguments.uv == TextureOf::Grid) {
     requests.layout = layout_for(arguments, *requests.grid);
     for (const GridSpec& grid : requests.coarser)

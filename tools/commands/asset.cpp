@@ -110,6 +110,23 @@ RemadeAsset remade(const MeshSource& asset, const std::string& folder,
   throw ReadError(display_name(asset.path), error.defects().front().message);
 }
 
+constexpr double hardly_any = 0.001;  // of the area: what little there is of walls nobody sees
+
+std::string share_of_walls(const RemadeAsset& made) {
+  return "walls that close ways through it are " + short_number(100 * made.baked.wall_share, 2) +
+         " % of its area";
+}
+
+bool has_alpha(const BakedImage& image) {
+  return image.field == "basecolor" && image.channels == 4;
+}
+
+/// Though they were to be cut out.
+bool walls_stay(const RemadeAsset& made, const RemakeOptions& options) {
+  return options.clear_walls && made.baked.wall_share >= hardly_any &&
+         std::ranges::none_of(made.baked.images, has_alpha);
+}
+
 /// Before the record is written, which says so too.
 void warn_of(const RemadeAsset& made, const AssetArguments& arguments, const std::string& folder,
              Session& session) {
@@ -124,25 +141,18 @@ void warn_of(const RemadeAsset& made, const AssetArguments& arguments, const std
   }
   if (made.whole.by != WholeBy::Wrap && arguments.options.clear_walls)
     session.warn({"--clear-walls is of wraps only, and this is none: it has no walls"});
+  if (walls_stay(made, arguments.options))
+    session.warn({"--clear-walls: " + share_of_walls(made) +
+                  ", and stay: it has no base colour whose alpha could cut them out"});
   if (made.viewer_is_missing)
     session.console.warning("this build has no 3D viewer: the page has pictures instead");
 }
 
-bool has_alpha(const BakedImage& image) {
-  return image.field == "basecolor" && image.channels == 4;
-}
-
-/// What little there is of walls nobody sees.
-std::string line_of_walls(const RemadeAsset& made, bool clear) {
-  constexpr double hardly_any = 0.001;
-  const double share = made.baked.wall_share;
-  if (share < hardly_any) return "";
-  const std::string walls =
-      "walls that close ways through it are " + short_number(100 * share, 2) + " % of its area";
-  if (!clear) return walls + ": --clear-walls cuts them out of what is seen, by alpha";
-  return walls + (std::ranges::any_of(made.baked.images, has_alpha)
-                      ? ", and cut out of what is seen, by alpha"
-                      : ", and stay: it has no base colour whose alpha could cut them out");
+std::string line_of_walls(const RemadeAsset& made, const RemakeOptions& options) {
+  if (made.baked.wall_share < hardly_any || walls_stay(made, options)) return "";
+  return share_of_walls(made) + (options.clear_walls
+                                     ? ", and cut out of what is seen, by alpha"
+                                     : ": --clear-walls cuts them out of what is seen, by alpha");
 }
 
 void tell(const RemadeAsset& made, const std::string& folder, const RemakeOptions& options,
@@ -152,7 +162,7 @@ void tell(const RemadeAsset& made, const std::string& folder, const RemakeOption
   for (const std::string& line : made.whole.details) session.console.detail("  " + line);
   if (made.baked.projection)
     session.console.say("  " + line_of(*made.baked.projection, {.source_name = "the asset"}));
-  if (const std::string walls = line_of_walls(made, options.clear_walls); !walls.empty())
+  if (const std::string walls = line_of_walls(made, options); !walls.empty())
     session.console.say("  " + walls);
   if (made.parts.size() > 1) session.console.detail("  " + line_of(made.parts));
   if (made.whole.by == WholeBy::Repair && made.whole.area_kept < 1)
@@ -221,7 +231,8 @@ int run_asset(AssetArguments& arguments) {
 void declare_options(Declaration& command, AssetArguments& arguments) {
   RemakeOptions& options = arguments.options;
   command.input("FILE", arguments.input, readable_formats("or") + "; - for standard input")
-      .text("-o,--output", arguments.output, "FOLDER", "Where files go; it is made if need be")
+      .text("-o,--output", arguments.output, "FOLDER",
+            "Where files go; it is made if need be, in a folder that is there")
       .written()
       .preset("NAME_sphere")
       .number("--size", options.width, "N", {2, 65536}, "Texels a row of images; half as many rows")

@@ -7,6 +7,7 @@
 #include "commands/sources.h"
 #include "console/places.h"
 #include "io/inspected_source.h"
+#include "sphparam/io/coarse_coordinates.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/vertex_data.h"
 #include "sphparam/records/data_record.h"
@@ -65,6 +66,8 @@ std::optional<SelfCrossings> looked_for_crossings(const MeshSource& source,
 }
 
 int tell_mesh(const MeshSource& source, const InfoArguments& arguments, Session& session) {
+  for (const std::string& coarse : coarse_coordinates_among(source.notes))
+    session.console.warning(display_name(source.path) + ": " + coarse);
   InspectionRecord record = {.source = source};
   if (!source.inspection.is_sphere()) record.repair = try_repair(source);
   if (record.repair && record.repair->parts.refused) record.parts = try_parts(source);

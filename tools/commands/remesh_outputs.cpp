@@ -132,11 +132,12 @@ std::optional<WrittenDisplacement> displace(const RemeshArguments& arguments,
                                             const MappedMesh& mapped, const LevelOfDetail& level,
                                             Session& session) try {
   if (arguments.displacement.empty()) return std::nullopt;
+  const DisplacementSize size = arguments.displacement_size.value_or(DisplacementSize{});
   WrittenDisplacement written = add_displacement(
       session.files, {arguments.displacement, arguments.depth, arguments.rebuilt}, mapped,
       level.mesh, level.fit.value(),
-      {.width = arguments.displacement_size.width,
-       .height = arguments.displacement_size.height,
+      {.width = size.width,
+       .height = size.height,
        .layout = requests.layout ? DisplacementLayout::Grid : DisplacementLayout::Equirectangular,
        .threads = session.threads(),
        .progress = session.progress()});
