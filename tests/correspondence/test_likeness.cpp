@@ -88,6 +88,15 @@ TEST_CASE("a mesh that is elsewhere is like nothing there") {
   CHECK_THROWS_AS(map_like(mapped(away), fine), UnlikeSurfaces);
 }
 
+TEST_CASE("a mesh that is near to a little of another one is not like it") {
+  const MappedMesh fine = mapped(bumpy(icosphere(4)));
+  TriangleMesh small = other_triangles(3);  // of some 2
+  small.positions *= 0.05;
+  small.positions.col(2).array() += 0.95;
+  CHECK_THROWS_WITH(map_like(mapped(small), fine),
+                    Catch::Contains("half of it is more than") && Catch::Contains("scaled?"));
+}
+
 TEST_CASE("what is nearest to a side that faces another way is told, and one-to-one all the same") {
   const MappedMesh fine = mapped(bumpy(icosphere(4)));
   TriangleMesh low = other_triangles(3);

@@ -227,8 +227,19 @@ double CoarseToFine::start_at(const SphereMap& map) {
   return energy_;
 }
 
-/// A map of the level that has the landmarks; false: they could not be reached.
+/// A map of the level that has the landmarks; false: they could not be reached, which each level is
+/// asked once, for it takes the longest of all.
 bool CoarseToFine::start_on(size_t level) {
+  if (const auto known = failed_.find(level); known != failed_.end()) {
+    residuals_ = known->second;
+    return false;
+  }
+  if (reaches_landmarks(level)) return true;
+  failed_[level] = residuals_;
+  return false;
+}
+
+bool CoarseToFine::reaches_landmarks(size_t level) {
   std::vector<Pin> pins = options_.landmarks;
   for (size_t i = 0; i < pins.size(); ++i) {
     pins[i].vertex = names_[level][i];

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -60,6 +61,7 @@ class CoarseToFine {
   size_t level_of(int vertices) const;
   std::optional<double> try_from(size_t level, size_t last);
   bool start_on(size_t level);
+  bool reaches_landmarks(size_t level);
   std::optional<SphereMap> embedded(size_t level, const std::vector<Pin>& pins) const;
   bool climb_to(size_t level);
   bool insert(size_t level, std::vector<Place>& places) const;
@@ -73,9 +75,10 @@ class CoarseToFine {
   std::vector<std::vector<Vertex>> names_;  // of the landmarks, on each level; -1: removed
   std::vector<Place> places_;               // of the vertices of the level at hand
   std::vector<double> residuals_;
-  size_t level_ = 0;       // at hand
-  int newton_level_ = 0;   // vertices of the level of the last Newton steps
-  double energy_ = 0;      // after these
+  std::map<size_t, std::vector<double>> failed_;  // residuals of levels that cannot be begun on
+  size_t level_ = 0;                              // at hand
+  int newton_level_ = 0;                          // vertices of the level of the last Newton steps
+  double energy_ = 0;                             // after these
   bool released_ = false;  // landmarks and features no longer count; a map of its own still has
                            // these landmarks
 };

@@ -63,10 +63,19 @@ class Liker {
   }
 
  private:
+  /// Each is where the other is: of what is far smaller all is near to a little of the other, and
+  /// no map has its anchors there.
   void require_near() const {
-    const double apart = weighted_median(near_.away, areas_) / diagonal_;
+    require_near(mesh_, other_, near_, areas_);
+    require_near(other_, mesh_, near_places(other_, mesh_, options_.threads),
+                 vertex_areas(other_.surface()));
+  }
+
+  void require_near(const MappedMesh& one, const MappedMesh& there, const NearPlaces& near,
+                    const VectorX& areas) const {
+    const double apart = weighted_median(near.away, areas) / diagonal_;
     if (apart <= far_apart) return;
-    throw UnlikeSurfaces(mesh_.name() + " is not where " + other_.name() +
+    throw UnlikeSurfaces(one.name() + " is not where " + there.name() +
                          " is: half of it is more than " + percent(apart) +
                          " of the diagonal away; has one been moved or scaled?");
   }
