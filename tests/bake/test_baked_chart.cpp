@@ -40,6 +40,17 @@ TEST_CASE(
   CHECK(warning_of_other_map("ao.png", texts, own).empty());
   rays.row(0) *= 1 + 1e-12;
   CHECK(texts_of_map(mapped(ball, rays)) == texts);
+  for (const double off : {1e-9, 1e-6}) {  // of files that round: no texel shows it
+    Points near = rays;
+    near.col(0).array() += off;
+    CHECK(warning_of_other_map("ao.png", texts, mapped(ball, near)).empty());
+  }
+  Points moved = rays;
+  moved.row(7) = (moved.row(7) + Eigen::RowVector3d(0, 1e-3, 0)).normalized();
+  CHECK_FALSE(warning_of_other_map("ao.png", texts, mapped(ball, moved)).empty());
+  const std::string hash_alone = texts.front().second.substr(0, texts.front().second.rfind(','));
+  CHECK(warning_of_other_map("ao.png", {{"sphparam:rays", hash_alone}}, own).empty());
+  CHECK_FALSE(warning_of_other_map("ao.png", {{"sphparam:rays", hash_alone}}, other).empty());
   CHECK(
       warning_of_other_map("ao.png", texts, other) ==
       "ao.png is baked on another map of this mesh than ball.sph.ply has, and stands elsewhere on "

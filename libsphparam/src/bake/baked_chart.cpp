@@ -1,9 +1,11 @@
 #include "bake/baked_chart.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <charconv>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -28,29 +30,90 @@ std::uint64_t hash_of(const Points& rays) {
   return hash;
 }
 
+/// Sums of the coordinates with signs by chance: of two maps they differ, root mean square and
+/// divided by that of their number, by about as much as rays do (Johnson and Lindenstrauss 1984).
+using SignedSums = std::array<double, 8>;
+
+/// Source: splitmix64 (Steele, Lea and Flood 2014).
+std::uint64_t scrambled(std::uint64_t number) {
+  number += 0x9e3779b97f4a7c15;
+  number = (number ^ (number >> 30)) * 0xbf58476d1ce4e5b9;
+  number = (number ^ (number >> 27)) * 0x94d049bb133111eb;
+  return number ^ (number >> 31);
+}
+
+SignedSums signed_sums(const Points& rays) {
+  SignedSums sums{};
+  for (Eigen::Index i = 0; i < rays.size(); ++i) {
+    const std::uint64_t signs = scrambled(static_cast<std::uint64_t>(i));
+    for (std::size_t k = 0; k < sums.size(); ++k)
+      sums[k] += (signs >> k & 1) ? rays.data()[i] : -rays.data()[i];
+  }
+  return sums;
+}
+
+/// Sums as they are told: " 1.5 -0.25 …"; nothing where they are not.
+std::optional<SignedSums> told_sums(std::string_view text) {
+  SignedSums sums;
+  for (double& sum : sums) {
+    if (!text.starts_with(' ')) return std::nullopt;
+    const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), sum);
+    if (error != std::errc{}) return std::nullopt;
+    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  }
+  return text.empty() ? std::optional(sums) : std::nullopt;
+}
+
+/// Whether rays are where these sums say, up to rounding in files, which no texel shows.
+bool is_near(const SignedSums& told, const Points& rays) {
+  constexpr double rounding = 1e-5;  // radians, root mean square
+  const SignedSums own = signed_sums(rays);
+  double squares = 0;
+  for (std::size_t k = 0; k < own.size(); ++k) squares += (own[k] - told[k]) * (own[k] - told[k]);
+  return squares <= rounding * rounding * static_cast<double>(own.size() * rays.rows());
+}
+
 std::string head_of_rays(const MappedMesh& mapped) {
   return std::to_string(mapped.map().points.rows()) + " rays, ";
 }
 
-std::string words_of_rays(const MappedMesh& mapped) {
+std::string six_decimals(double number) {
+  char digits[40];  // of less than 10²⁰
+  return {digits,
+          std::to_chars(digits, digits + sizeof digits, number, std::chars_format::fixed, 6).ptr};
+}
+
+std::string hash_words(const Points& rays) {
   char digits[16];
-  const auto end =
-      std::to_chars(digits, digits + sizeof digits, hash_of(mapped.map().points), 16).ptr;
-  return head_of_rays(mapped) + std::string(digits, end);
+  return {digits, std::to_chars(digits, digits + sizeof digits, hash_of(rays), 16).ptr};
+}
+
+/// "642 rays, 1f0e…, 1.5 -0.25 …": how many, the hash, and the sums.
+std::string words_of_rays(const MappedMesh& mapped) {
+  const Points& rays = mapped.map().points;
+  std::string words = head_of_rays(mapped) + hash_words(rays) + ",";
+  for (const double sum : signed_sums(rays)) words += " " + six_decimals(sum);
+  return words;
+}
+
+/// `said`: what of a map is told behind its number of rays.
+bool is_this(std::string_view said, const Points& rays) {
+  const std::size_t comma = std::min(said.find(','), said.size());
+  if (said.substr(0, comma) == hash_words(rays)) return true;
+  const auto sums = told_sums(said.substr(std::min(comma + 1, said.size())));
+  return sums && is_near(*sums, rays);
 }
 
 /// Whether of these maps one has as many rays, and none is this one.
 bool says_another(std::string_view said, const MappedMesh& mapped) {
   const std::string head = head_of_rays(mapped);
   bool another = false;
-  std::string own;
   while (!said.empty()) {
     const std::size_t end = std::min(said.find(between_maps), said.size());
     const std::string_view one = said.substr(0, end);
     said.remove_prefix(std::min(end + between_maps.size(), said.size()));
     if (!one.starts_with(head)) continue;
-    if (own.empty()) own = words_of_rays(mapped);
-    if (one == own) return false;
+    if (is_this(one.substr(head.size()), mapped.map().points)) return false;
     another = true;
   }
   return another;
