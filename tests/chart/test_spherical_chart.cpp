@@ -41,6 +41,7 @@ void check_laws(const TriangleMesh& mesh, const SphereMap& map, bool exact = fal
   const SphericalChart chart = chart_of(mesh, map);
   CHECK(chart.certificate.one_to_one());
   CHECK(chart.certificate.max_shift < 1e-11);
+  CHECK(certify_chart(chart).max_shift == chart.certificate.max_shift);  // of all rays, asked anew
   const auto vertices = static_cast<int>(chart.points.rows());
   const Topology refined(chart.triangles, vertices);
   CHECK(vertices - refined.edge_count() + refined.face_count() == 2);

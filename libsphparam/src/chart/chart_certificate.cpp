@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <tuple>
+#include <compare>
+#include <span>
 #include <utility>
 
 #include "chart/longitude.h"
@@ -41,9 +42,11 @@ class ChartCertifier {
  public:
   enum class Question { Everything, OneToOne };
 
-  ChartCertifier(const SphericalChart& chart, const TextureCoordinates& uv, Question question)
+  ChartCertifier(const SphericalChart& chart, const TextureCoordinates& uv, Question question,
+                 std::span<const ChartPoint> places = {})
       : chart_(chart),
         uv_(uv),
+        places_(places),
         wedge_count_(static_cast<int>(uv.rows())),
         everything_(question == Question::Everything) {}
 
@@ -130,22 +133,39 @@ class ChartCertifier {
 
   /// Of wedges first … last − 1.
   double farthest_from_map(std::int64_t first, std::int64_t last) const {
-    const auto count = static_cast<size_t>(last - first);
-    std::vector<Vector3> rays(count);
-    std::vector<ChartPoint> there(count);
     double farthest = 0;
-    for (size_t i = 0; i < count; ++i) {
-      const Vertex v = chart_.wedge_vertices[static_cast<size_t>(first) + i];
-      rays[i] = exists(v) ? Vector3(chart_.points.row(v)) : Vector3::UnitZ();
+    std::vector<int> asked;  // those whose rays have no known place
+    for (auto w = static_cast<int>(first); w < static_cast<int>(last); ++w) {
+      const auto v = static_cast<size_t>(chart_.wedge_vertices[static_cast<size_t>(w)]);
+      if (v < places_.size())
+        farthest = farther(farthest, w, places_[v]);
+      else if (exists(static_cast<Vertex>(v)))
+        asked.push_back(w);
+      else
+        farthest = std::max(farthest, 1.0);
     }
+    return asked.empty() ? farthest : farthest_of(asked, farthest);
+  }
+
+  /// Of some wedges and what was found so far.
+  double farthest_of(const std::vector<int>& wedges, double farthest) const {
+    std::vector<Vector3> rays;
+    for (const int w : wedges) rays.emplace_back(ray(w));
+    std::vector<ChartPoint> there(rays.size());
     chart_points(rays, there);
-    for (size_t i = 0; i < count; ++i) {
-      const ChartPoint p = point(static_cast<int>(first) + static_cast<int>(i));
-      const Vertex v = chart_.wedge_vertices[static_cast<size_t>(first) + i];
-      farthest =
-          std::max(farthest, exists(v) ? distance_beyond(farthest, p, rays[i], there[i]) : 1.0);
-    }
+    for (size_t i = 0; i < wedges.size(); ++i) farthest = farther(farthest, wedges[i], there[i]);
     return farthest;
+  }
+
+  Vector3 ray(int w) const {
+    return chart_.points.row(chart_.wedge_vertices[static_cast<size_t>(w)]);
+  }
+
+  /// The greater of a distance and that of a wedge from where its ray is.
+  double farther(double than, int w, const ChartPoint& there) const {
+    const ChartPoint p = point(w);
+    if (p.u == there.u && p.v == there.v) return than;
+    return std::max(than, distance_beyond(than, p, ray(w), there));
   }
 
   /// From a wedge to where its ray is, as far as that says something on the sphere; where it is no
@@ -209,23 +229,36 @@ class ChartCertifier {
       char& count = wedges[static_cast<size_t>(v)];
       count = static_cast<char>(std::min(count + 1, 2));
     }
+    const auto is_copied = [&](Vertex v) { return wedges[static_cast<size_t>(v)] == 2; };
     std::vector<Halfedge> sides;
-    for (Halfedge h = 0; h < 3 * static_cast<Halfedge>(chart_.triangles.rows()); ++h) {
-      const bool several = wedges[static_cast<size_t>(origin(h))] == 2 ||
-                           wedges[static_cast<size_t>(origin(Topology::next(h)))] == 2;
-      if (several) sides.push_back(h);
+    for (Face f = 0; f < static_cast<Face>(chart_.triangles.rows()); ++f) {
+      const bool copied[] = {is_copied(chart_.triangles(f, 0)), is_copied(chart_.triangles(f, 1)),
+                             is_copied(chart_.triangles(f, 2))};
+      if (!(copied[0] | copied[1] | copied[2])) continue;
+      for (int k = 0; k < 3; ++k) {
+        if (copied[k] || copied[(k + 1) % 3]) sides.push_back(3 * f + k);
+      }
     }
     return sides;
   }
 
   /// The two sides of each edge. Requires: both are there, of a closed surface.
-  Pairs paired(std::vector<Halfedge> sides) const {
-    std::ranges::sort(sides, {}, [&](Halfedge h) {
+  Pairs paired(const std::vector<Halfedge>& sides) const {
+    struct Side {
+      Vertex low, high;
+      Halfedge h;
+      auto operator<=>(const Side&) const = default;
+    };
+    std::vector<Side> sorted;
+    sorted.reserve(sides.size());
+    for (const Halfedge h : sides) {
       const Vertex a = origin(h), b = origin(Topology::next(h));
-      return std::tuple(std::min(a, b), std::max(a, b), h);
-    });
+      sorted.push_back({std::min(a, b), std::max(a, b), h});
+    }
+    std::ranges::sort(sorted);
     Pairs pairs;
-    for (size_t i = 0; i + 1 < sides.size(); i += 2) pairs.emplace_back(sides[i], sides[i + 1]);
+    for (size_t i = 0; i + 1 < sorted.size(); i += 2)
+      pairs.emplace_back(sorted[i].h, sorted[i + 1].h);
     return pairs;
   }
 
@@ -249,11 +282,14 @@ class ChartCertifier {
   }
 
   bool positive_on_sphere(Face f) const {
-    Vector3 rays[3];
-    for (int k = 0; k < 3; ++k) {
-      rays[k] = chart_.points.row(chart_.triangles(f, k));
-      if (!(rays[k].array().abs() <= largest_coordinate).all()) return false;
+    const Vector3 rays[] = {chart_.points.row(chart_.triangles(f, 0)),
+                            chart_.points.row(chart_.triangles(f, 1)),
+                            chart_.points.row(chart_.triangles(f, 2))};
+    for (const Vector3& ray : rays) {
+      if (!(ray.array().abs() <= largest_coordinate).all()) return false;
     }
+    const FilteredSum det = filtered_determinant(rays[0], rays[1], rays[2]);  // as orientation's
+    if (det.size > 1e-270 && det.size < 1e300 && det.sign(0x1p-50) > 0) return true;
     return orientation(rays[0], rays[1], rays[2]) > 0;
   }
 
@@ -283,6 +319,7 @@ class ChartCertifier {
 
   const SphericalChart& chart_;
   const TextureCoordinates& uv_;
+  const std::span<const ChartPoint> places_;  // of the rays of the first vertices
   const int wedge_count_;
   const bool everything_;
   std::atomic<bool> usable_{true};  // by the exact predicate
@@ -293,6 +330,11 @@ class ChartCertifier {
 
 ChartCertificate certify_chart(const SphericalChart& chart, int threads) {
   return ChartCertifier(chart, chart.uv, ChartCertifier::Question::Everything).run(threads);
+}
+
+ChartCertificate certify_chart(const SphericalChart& chart, std::span<const ChartPoint> places,
+                               int threads) {
+  return ChartCertifier(chart, chart.uv, ChartCertifier::Question::Everything, places).run(threads);
 }
 
 bool is_one_to_one(const SphericalChart& chart, const TextureCoordinates& uv, int threads) {

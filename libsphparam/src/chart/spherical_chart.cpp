@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "chart/flat_mesh.h"
+#include "chart/one_to_one.h"
 #include "chart/settle.h"
 #include "chart/split_at_poles_and_meridian.h"
 #include "chart/unfold.h"
@@ -179,6 +180,7 @@ class ChartMaker {
     flat_->north = frame.north;
     flat_->south = frame.south;
     lay_out(*flat_, threads_);
+    laid_out_ = flat_->uv;
     counts_ = {.pole_splits = frame.pole_splits,
                .meridian_splits = frame.meridian_splits,
                .snapped_vertices = frame.snapped_vertices};
@@ -216,7 +218,7 @@ class ChartMaker {
     SphericalChart chart = surface_of(*flat_);
     WedgeBuilder(*flat_).build(chart, [&](Face f) { return touches_seam_from_west(*flat_, f); });
     chart.counts = counts_;
-    chart.certificate = certify_chart(chart, threads_);
+    chart.certificate = certify_chart(chart, laid_out_, threads_);
     if (!chart.certificate.one_to_one()) {
       chart = settled(std::move(chart), threads_, [&] {
         if (!tell(static_cast<double>(counts_.fold_splits))) throw Cancelled();
@@ -234,6 +236,7 @@ class ChartMaker {
   std::int64_t most_ = 0;
   double told_ = 0;
   std::unique_ptr<FlatMesh> flat_;
+  std::vector<ChartPoint> laid_out_;  // of the vertices there are before folds are split
   ChartCounts counts_;
 };
 

@@ -1,6 +1,7 @@
 #include "sphparam/mesh/topology.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -22,7 +23,7 @@ namespace sphparam {
 namespace {
 
 constexpr std::int64_t grain = 2048;
-constexpr int most_pairwise = 16;  // faces at a vertex
+constexpr int few = 8, most_pairwise = 16;  // faces at a vertex
 
 /// A face, seen from one of its vertices.
 struct Corner {
@@ -32,17 +33,25 @@ struct Corner {
 
 size_t at(std::int64_t i) { return static_cast<size_t>(i); }
 
-/// For each corner, the one whose source is its target. False: that is not one to one.
+/// For each corner, the one whose source is its target. False: that is not one to one. Each source
+/// is held against all targets side by side, of which there are `most` at most.
+template <int most>
 bool match_pairwise(const Corner* corners, int count, int* partner) {
+  std::array<Vertex, most> targets, found{}, place{};
+  targets.fill(-1);
+  for (int i = 0; i < count; ++i) targets[at(i)] = corners[i].target;
+  for (int j = 0; j < count; ++j) {
+    const Vertex source = corners[j].source;
+    for (size_t i = 0; i < most; ++i) {
+      const int same = -int{targets[i] == source};
+      found[i] -= same;
+      place[i] |= same & j;
+    }
+  }
   std::uint32_t taken = 0;
   for (int i = 0; i < count; ++i) {
-    int found = 0;
-    for (int j = 0; j < count; ++j) {
-      if (corners[j].source != corners[i].target) continue;
-      partner[i] = j;
-      ++found;
-    }
-    if (found != 1 || (taken >> partner[i] & 1)) return false;
+    partner[i] = place[at(i)];
+    if (found[at(i)] != 1 || (taken >> partner[i] & 1)) return false;
     taken |= std::uint32_t{1} << partner[i];
   }
   return true;
@@ -79,8 +88,9 @@ bool is_one_fan(const int* partner, int count) {
 bool find_fan(std::span<const Corner> corners, std::vector<int>& partner) {
   const int count = static_cast<int>(corners.size());
   partner.resize(std::max(partner.size(), corners.size()));
-  const bool matched = count <= most_pairwise
-                           ? match_pairwise(corners.data(), count, partner.data())
+  const bool matched = count <= few ? match_pairwise<few>(corners.data(), count, partner.data())
+                       : count <= most_pairwise
+                           ? match_pairwise<most_pairwise>(corners.data(), count, partner.data())
                            : match_sorted(corners.data(), count, partner.data());
   return matched && is_one_fan(partner.data(), count);
 }
