@@ -126,6 +126,23 @@ const Property& vertex_property(const MeshFile& file, const std::string& name) {
 
 }  // namespace
 
+TEST_CASE("remesh: points of a sphere are on it where its file says that it is one") {
+  const auto off_sphere = [](const MeshFile& file) {
+    const MappedMesh ball(
+        {.file = file, .map = SphereMap{file.mesh.positions.rowwise().normalized()}});
+    const Points points = remesh(ball, grid_named("healpix:4")).mesh().positions;
+    return (points.rowwise().norm().array() - 100).abs().maxCoeff();
+  };
+  MeshFile file;
+  file.mesh = icosphere(2);
+  file.mesh.positions *= 100;
+  CHECK(off_sphere(file) > 1);  // on its triangles
+  file.comments = {"gifti GeometricType Spherical"};
+  CHECK(off_sphere(file) < 1e-12 * 100);
+  file.mesh.positions.row(0) *= 1.001;  // no sphere
+  CHECK(off_sphere(file) > 1);
+}
+
 TEST_CASE("remesh: points of another surface that a match has for vertices have no mean") {
   const auto carried = [](std::vector<std::string> names) {
     MeshFile file;

@@ -376,6 +376,18 @@ Provenance provenance_of(const MappedMesh& source, const std::string& grid, Samp
   return lines;
 }
 
+/// A sphere of neuroimaging, whose file says so, has its points on it on any grid, not on its flat
+/// triangles: Workbench takes no other. Others, and what is no sphere about the origin, stay.
+void put_on_sphere(const MeshFile& source, Points& positions) {
+  constexpr double rounding = 1e-4;  // of the radius, of files that round
+  if (std::ranges::find(source.comments, "gifti GeometricType Spherical") == source.comments.end())
+    return;
+  const VectorX radii = source.mesh.positions.rowwise().norm();
+  const double radius = radii.mean();
+  if (!(radii.maxCoeff() - radii.minCoeff() <= rounding * radius)) return;
+  for (auto row : positions.rowwise()) row *= radius / row.norm();
+}
+
 /// Of a radial map: vertices are where rays of the grid meet the mesh, so that the
 /// grid is a radial map of them, but for what the map moved.
 Provenance radial_lines(const MappedMesh& source, const MeshFile& file, const SphereMap& grid) {
@@ -428,6 +440,7 @@ Remeshed remesh(const MappedMesh& source, SphereGrid grid, const RemeshOptions& 
   file.comments = source.file().comments;
   forget_vertices_of_file(file);
   file.mesh.positions = transfer.positions();
+  put_on_sphere(source.file(), file.mesh.positions);
   figures.transfer_seconds = stopwatch.seconds();
   const Triangulation cut = triangulate(file.mesh.positions, grid.faces);
   transfer.weigh(source, {file.mesh.positions, cut.triangles});
