@@ -57,6 +57,23 @@ TEST_CASE("info: cavities are told, not sent to a wrap, and not called inside ou
 }
 
 TEST_CASE(
+    "info: a mesh whose faces look both ways has no volume, one inside out is told what turns it") {
+  TriangleMesh mixed = icosphere(1);
+  mixed.triangles.row(5).reverseInPlace();
+  const std::string text = obj_text(mixed);
+  CHECK_THAT(sphparam_program({"info", "-"}, text).out, Contains("area") && !Contains("volume"));
+  const Json inspection =
+      Json::parse(sphparam_program({"info", "-", "--json", "-"}, text).out)["inspection"];
+  CHECK(inspection["volume"].is_null());
+  TriangleMesh inward = icosphere(1);
+  inward.triangles.col(1).swap(inward.triangles.col(2));
+  CHECK_THAT(sphparam_program({"info", "-"}, obj_text(inward)).out,
+             Contains("  volume        -") &&
+                 Contains("it can be mapped.\nIts faces point inwards: --repair=orientation turns "
+                          "them.\n"));
+}
+
+TEST_CASE(
     "info: what parts share counts twice, which is told, and length, width and thickness are") {
   const Folder folder;
   TriangleMesh limb = icosphere(3), small = icosphere(1);

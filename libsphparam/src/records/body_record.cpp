@@ -30,6 +30,16 @@ std::string direction(const Vector3& axis) { return "(" + place_text(axis, 1) + 
 
 }  // namespace
 
+bool has_defect(const MeshInspection& inspection, DefectKind kind) {
+  return std::ranges::any_of(inspection.defects,
+                             [kind](const MeshDefect& defect) { return defect.kind == kind; });
+}
+
+bool has_volume(const MeshInspection& inspection) {
+  return inspection.boundary_loops == 0 &&
+         !has_defect(inspection, DefectKind::InconsistentOrientation);
+}
+
 std::optional<MassProperties> enclosed_body(const TriangleMesh& mesh,
                                             const MeshInspection& inspection) {
   if (!std::ranges::all_of(inspection.defects, is_sound)) return std::nullopt;

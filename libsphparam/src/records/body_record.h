@@ -10,6 +10,11 @@
 
 namespace sphparam {
 
+bool has_defect(const MeshInspection& inspection, DefectKind kind);
+
+/// An open mesh encloses none, and of one whose faces look both ways the sum means nothing.
+bool has_volume(const MeshInspection& inspection);
+
 /// What a closed mesh encloses; nothing of an open one, of one whose faces or numbers are none, or
 /// whose faces do not look the same way at an edge, or whose moments doubles do not hold.
 std::optional<MassProperties> enclosed_body(const TriangleMesh& mesh,

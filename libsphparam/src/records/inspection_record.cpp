@@ -155,9 +155,9 @@ std::string figures(const MeshSource& source, const std::optional<ClosedHoles>& 
          line("topology", topology(mesh)) + line("bounding box", box(mesh.lower, mesh.upper)) +
          filler_line(closed) +
          line("area", short_number(closed ? closed->area : mesh.area, figure_digits)) +
-         (mesh.boundary_loops > 0 ? ""  // an open mesh encloses none
-                                  : line("volume", short_number(mesh.volume, figure_digits) +
-                                                       (closed ? ", fillers included" : ""))) +
+         (has_volume(mesh) ? line("volume", short_number(mesh.volume, figure_digits) +
+                                                (closed ? ", fillers included" : ""))
+                           : "") +
          line("attributes", attributes(file)) + line("welding", welding(source));
 }
 
@@ -252,7 +252,10 @@ std::string to_text(const InspectionRecord& record) {
     return text + "A closed genus-0 mesh without area: it has no shape that could be mapped.\n";
   if (source.inspection.is_sphere()) {
     return text + (closed ? "With its fillers a closed genus-0 mesh" : "A closed genus-0 mesh") +
-           ": it can be mapped.\n";
+           ": it can be mapped.\n" +
+           (has_defect(source.inspection, DefectKind::InsideOut)
+                ? "Its faces point inwards: --repair=orientation turns them.\n"
+                : "");
   }
   text += "This mesh cannot be mapped to a sphere as it is.\n";
   return record.repair ? text + repair_advice(*record.repair, source.path, "", record.parts) : text;

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "records/body_record.h"
 #include "sphparam/names.h"
 
 namespace sphparam {
@@ -104,7 +105,7 @@ Json inspection_json(const MeshInspection& inspection) {
           {"euler_characteristic", inspection.euler_characteristic},
           {"genus", inspection.genus},
           {"area", inspection.area},
-          {"volume", inspection.boundary_loops > 0 ? Json() : Json(inspection.volume)},
+          {"volume", has_volume(inspection) ? Json(inspection.volume) : Json()},
           {"bounding_box", {vector_json(inspection.lower), vector_json(inspection.upper)}},
           {"defects", defects}};
 }
