@@ -115,6 +115,30 @@ TEST_CASE("remesh --subdiv-fit: .obj and .glb too, the same bytes for one thread
   CHECK(sphparam::read_mesh(obj).comments == words);
 }
 
+TEST_CASE("remesh --subdiv-fit: as USD a control mesh keeps its quads and the layout of its grid") {
+  const Mapped mapped(300);
+  const std::string usd = mapped.folder / "a.usda", obj = mapped.folder / "a.obj";
+  for (const std::string& out : {usd, obj})
+    REQUIRE(mapped
+                .remesh({"--grid", "cube:4", "--subdiv-fit", "catmark", "--displace",
+                         mapped.folder / "d.exr", "--displace-size", "64x32", "-o", out})
+                .code == 0);
+  const std::string layer = bytes_of(usd), text = bytes_of(obj);
+  CHECK_THAT(layer, Catch::Contains("subdivisionScheme = \"catmullClark\"") &&
+                        Catch::Contains("faceVertexCounts = [4, 4, ") &&
+                        Catch::Contains("displacement: d.exr: subdivide by Catmull-Clark"));
+  // The first face of the .obj: vertices and texture coordinates from 1.
+  const std::size_t face = text.find("\nf ") + 3;
+  const int vertex = std::stoi(text.substr(face)),
+            texture = std::stoi(text.substr(text.find('/', face) + 1));
+  CHECK_THAT(layer, Catch::Contains("faceVertexIndices = [" + std::to_string(vertex - 1) + ", "));
+  std::size_t at = 0;
+  for (int i = 0; i < texture; ++i) at = text.find("\nvt ", at) + 4;
+  const float u = std::stof(text.substr(at));
+  const std::size_t st = layer.find("primvars:st = [(") + 16;
+  CHECK(std::stof(layer.substr(st)) == u);
+}
+
 TEST_CASE("remesh --subdiv-fit: an .obj of the limit surface has quads too, the RMS is one way") {
   const Mapped mapped(300);
   const Ended ended =

@@ -11,6 +11,7 @@
 #include "io/files/zip_archive.h"
 #include "sphparam/gltf/export.h"
 #include "sphparam/gltf/usd_writer.h"
+#include "sphparam/io/polygons.h"
 #include "sphparam/io/safe_file.h"
 #include "support/bytes_of.h"
 #include "support/folder.h"
@@ -319,8 +320,8 @@ TEST_CASE("USD: what was read back is compared number by number") {
   CHECK_NOTHROW(check_written_usd(usdz_bytes(asset), "a.usdz", asset));
   for (const auto& [declaration, what] :
        {std::pair("point3f[] points = [(", "positions"),
-        {"int[] faceVertexIndices = [", "triangles"},
-        {"int[] faceVertexCounts = [", "triangles"},
+        {"int[] faceVertexIndices = [", "faces"},
+        {"int[] faceVertexCounts = [", "faces"},
         {"texCoord2f[] primvars:st = [(", "texture coordinates"}}) {
     const std::size_t at = layer.find(declaration) + std::string(declaration).size();
     REQUIRE(at < layer.size());
@@ -334,6 +335,52 @@ TEST_CASE("USD: what was read back is compared number by number") {
     changed.replace(layer.find(declaration), 1, "x");
     CHECK_THROWS_WITH(check_written_usd(changed, "a.usda", asset), message);
   }
+}
+
+TEST_CASE("USD: a control mesh keeps its quads, and says what subdivides it") {
+  // A box twice as long as wide, z up: three pairs of sides.
+  MeshFile file;
+  Polygons quads;
+  file.mesh.positions.resize(8, 3);
+  for (int v = 0; v < 8; ++v) file.mesh.positions.row(v) << 2 * (v & 1), v >> 1 & 1, v >> 2;
+  for (const int v : {0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5}) {
+    quads.add_corner(v);
+    if (quads.open_degree() == 4) REQUIRE(quads.close_polygon({}).empty());
+  }
+  adopt_triangulation(file, triangulate(file.mesh.positions, quads));
+  file.corner_texcoords = CornerTexcoords(36, 2);
+  for (Eigen::Index corner = 0; corner < 36; ++corner)
+    file.corner_texcoords->row(corner) << file.mesh.triangles.data()[corner] / 8.0, 0.75;
+  file.comments = {"displacement: d.exr"};
+  file.set_vertex_property({"height", ScalarType::Float64, {1, 2, 3, 4, 5, 6, 7, 8}});
+  SphereMap map{
+      (file.mesh.positions.rowwise() - Eigen::RowVector3d(1, 0.5, 0.5)).rowwise().normalized()};
+  const MappedMesh cage({.file = file, .map = map, .polygons = quads, .name = "cube:1"});
+  const Folder folder;
+  PendingFiles files;
+  CHECK(add_usd_cage(files, folder / "base.usda", cage, false) ==
+        Names{"not carried: height of vertices: .ply has room for that"});
+  add_usd_cage(files, folder / "base.usdz", cage, true);
+  files.publish();
+  const std::string layer = bytes_of(folder / "base.usda");
+  CHECK(array_of(layer, "int[] faceVertexCounts") == std::vector<float>(6, 4));
+  CHECK(array_of(layer, "int[] faceVertexIndices") ==
+        std::vector<float>(quads.corners.begin(), quads.corners.end()));
+  const std::vector<float> points = array_of(layer, "point3f[] points");
+  CHECK(std::vector<float>(points.begin() + 12, points.begin() + 18) ==
+        std::vector<float>{0, 1, 0, 2, 1, 0});  // what was up z is y
+  std::vector<float> st;
+  for (const int v : quads.corners) st.insert(st.end(), {static_cast<float>(v) / 8, 0.75F});
+  CHECK(array_of(layer, "texCoord2f[] primvars:st") == st);
+  for (const char* line :
+       {"        uniform token subdivisionScheme = \"catmullClark\"\n",
+        "        uniform token faceVaryingLinearInterpolation = \"all\"\n",
+        "            interpolation = \"faceVarying\"\n",
+        "            string comments = \"displacement: d.exr\"\n", "    defaultPrim = \"base\"\n"})
+    CHECK_THAT(layer, Contains(line));
+  const std::string package = bytes_of(folder / "base.usdz");
+  CHECK(package.find("#usda 1.0") == 64);
+  CHECK_THAT(package, Contains("subdivisionScheme = \"loop\""));
 }
 
 TEST_CASE("USD: what these files do not carry is told in a line") {

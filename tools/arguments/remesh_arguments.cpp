@@ -108,7 +108,8 @@ void declare_remesh_options(Declaration& command, RemeshArguments& arguments) {
       .choice("--uv", arguments.uv, {{"grid", TextureOf::Grid}, {"mesh", TextureOf::Mesh}},
               "Texture coordinates of the new mesh: in the grid's own layout (cube:N six squares, "
               "octa:N one, ico ten diamonds, uv:WxH the equirectangular chart), or those of the "
-              "mesh, carried (default: grid for control meshes in .obj and .ply, else mesh)")
+              "mesh, carried (default: grid for control meshes in .obj, .ply and USD, else "
+              "mesh)")
       .choice("--sample", arguments.sample,
               {{"point", SampleMode::Point},
                {"cell", SampleMode::Cell},

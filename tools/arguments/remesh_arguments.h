@@ -73,8 +73,8 @@ struct RemeshRequests {
   std::vector<GridSpec> coarser;     // grids of --lods
   std::vector<std::string> outputs;  // of -o and --lods: one a level, or one .glb
   std::vector<ImageRequest> images;
-  bool one_file = false;                       // a .glb
-  bool has_chart = false;                      // a .glb or USD
+  bool one_file = false;  // a .glb
+  bool is_usd = false;
   std::optional<TextureLayout> layout;         // texture coordinates in that of the grid …
   std::vector<TextureLayout> coarser_layouts;  // … and of those of --lods
   Words areas;                                 // none, or two files

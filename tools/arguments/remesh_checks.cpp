@@ -219,10 +219,16 @@ std::vector<GridSpec> check_levels(const RemeshArguments& arguments,
   return coarser;
 }
 
+/// A control mesh, which keeps its quads.
+bool is_cage_of_usd(const RemeshArguments& arguments) {
+  const std::string kind = extension_of(arguments.output);
+  return arguments.subdivision && (kind == ".usda" || kind == ".usdz");
+}
+
 bool takes_texture_of_grid(const RemeshArguments& arguments) {
   const std::string kind =
       is_stream(arguments.output) ? ".ply" : inner_extension_of(arguments.output);
-  return kind == ".obj" || kind == ".ply";
+  return kind == ".obj" || kind == ".ply" || is_cage_of_usd(arguments);
 }
 
 /// Whether texture coordinates are the grid's, where that was not said.
@@ -305,7 +311,7 @@ RemeshRequests check_remesh_arguments(RemeshArguments& arguments) {
   }
   const std::string kind = extension_of(arguments.output);
   requests.one_file = kind == ".glb";
-  requests.has_chart = requests.one_file || kind == ".usda" || kind == ".usdz";
+  requests.is_usd = kind == ".usda" || kind == ".usdz";
   requests.outputs = outputs_of(arguments, requests.one_file);
   check_all_places(arguments, requests);
   return requests;

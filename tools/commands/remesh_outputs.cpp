@@ -82,6 +82,16 @@ void add_charted(const RemeshArguments& arguments, const RemeshRequests& request
   });
 }
 
+/// Control meshes, whose quads stay.
+void add_cages(const RemeshArguments& arguments, const RemeshRequests& requests,
+               const std::vector<LevelOfDetail>& levels, Session& session) {
+  const bool is_loop = arguments.subdivision == Scheme::Loop;
+  for (std::size_t i = 0; i < levels.size(); ++i)
+    tell_losses(requests.outputs[i],
+                add_usd_cage(session.files, requests.outputs[i], levels[i].mesh, is_loop),
+                session.console);
+}
+
 /// The data that has files of its own. `last`: the `last_attached` of what was read.
 void add_data(const RemeshRequests& requests, int last, const Remeshed& made, Session& session) {
   std::vector<VertexData> data = attached_data(made.file());
@@ -105,7 +115,9 @@ void add_meshes(const RemeshArguments& arguments, const RemeshRequests& requests
                 const MappedMesh& mapped, const std::vector<LevelOfDetail>& levels,
                 Session& session) {
   const WriteOptions new_mesh{.origin = arguments.input};
-  if (requests.has_chart) {
+  if (requests.is_usd && arguments.subdivision) {
+    add_cages(arguments, requests, levels, session);
+  } else if (requests.one_file || requests.is_usd) {
     add_charted(arguments, requests, mapped, levels, session);
   } else if (!arguments.output.empty()) {
     std::vector<std::string> left_behind;

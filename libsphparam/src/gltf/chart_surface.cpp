@@ -79,19 +79,6 @@ FloatRows gather_tangents(const Shape& shape, const Numbering& numbering, bool m
   return tangents;
 }
 
-/// Near the middle of what is farther from the origin than is good for float32; else the origin. A
-/// multiple of a power of two that is not above the extent: differences from it are exact.
-Eigen::RowVector3d origin_for_float32(const Points& positions) {
-  constexpr double farthest = 16;  // extents: so much of float32's digits is lost
-  const Eigen::RowVector3d least = positions.colwise().minCoeff(),
-                           greatest = positions.colwise().maxCoeff();
-  const double extent = (greatest - least).maxCoeff(),
-               size = greatest.cwiseAbs().cwiseMax(least.cwiseAbs()).maxCoeff();
-  if (!(extent > 0 && size > farthest * extent)) return Eigen::RowVector3d::Zero();
-  const double step = std::ldexp(1.0, std::ilogb(extent));
-  return step * ((0.5 * least + 0.5 * greatest) / step).array().round().matrix();
-}
-
 /// Rows of positions, from an origin.
 FloatRows gather_from(const Eigen::RowVector3d& origin, const Shape& shape,
                       const Numbering& numbering) {
@@ -181,6 +168,18 @@ MorphTarget morph_target(const NamedShape& to, const Surface& from, const Number
 }
 
 }  // namespace
+
+// A multiple of a power of two that is not above the extent: differences from it are exact.
+Eigen::RowVector3d origin_for_float32(const Points& positions) {
+  constexpr double farthest = 16;  // extents: so much of float32's digits is lost
+  const Eigen::RowVector3d least = positions.colwise().minCoeff(),
+                           greatest = positions.colwise().maxCoeff();
+  const double extent = (greatest - least).maxCoeff(),
+               size = greatest.cwiseAbs().cwiseMax(least.cwiseAbs()).maxCoeff();
+  if (!(extent > 0 && size > farthest * extent)) return Eigen::RowVector3d::Zero();
+  const double step = std::ldexp(1.0, std::ilogb(extent));
+  return step * ((0.5 * least + 0.5 * greatest) / step).array().round().matrix();
+}
 
 Surface chart_surface(const SphericalChart& chart, const Shape& shape,
                       const std::vector<NamedShape>& targets, const MeshFile& mesh,

@@ -36,4 +36,7 @@ Surface chart_surface(const SphericalChart& chart, const Shape& shape,
                       const std::vector<NamedShape>& targets, const MeshFile& mesh,
                       const SurfaceOptions& options, double theta_offset = 0);
 
+/// Near the middle of what is farther from the origin than is good for float32; else the origin.
+Eigen::RowVector3d origin_for_float32(const Points& positions);
+
 }  // namespace sphparam

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "sphparam/gltf/asset.h"
+#include "sphparam/io/mapped_mesh.h"
+#include "sphparam/io/safe_file.h"
 
 namespace sphparam {
 
@@ -28,6 +30,14 @@ UsdFiles write_usd(const Asset& asset, const std::string& stem = "mesh");
 /// The same in one package: a ZIP archive of the layer and the images, nothing compressed, each
 /// from a multiple of 64 bytes on. Throws: likewise; std::length_error beyond 4 GiB.
 std::string usdz_bytes(const Asset& asset);
+
+/// Adds a control mesh as a .usda or .usdz: its polygons, quads as they are, to be subdivided by
+/// Catmull-Clark or Loop; y up; its texture coordinates at corners, straight over the faces, which
+/// nothing smooths; its comments. What is on the disk is read back and compared. Returns what is
+/// not carried (losses.h). Throws: WriteError; std::runtime_error where what was read back differs;
+/// std::length_error as `usdz_bytes`.
+std::vector<std::string> add_usd_cage(PendingFiles& files, const std::string& path,
+                                      const MappedMesh& cage, bool is_loop);
 
 /// What an asset has that these files do not carry, for people: a line, or none.
 std::vector<std::string> beyond_usd(const Asset& asset);

@@ -91,13 +91,14 @@ void LayerText::rows(std::string_view type_and_name, const FloatRows& rows) {
   text_ << '\n';
 }
 
-void LayerText::vertex_rows(std::string_view type_and_name, const FloatRows& rows) {
+void LayerText::varying_rows(std::string_view type_and_name, std::string_view what,
+                             const FloatRows& rows) {
   indent();
   text_ << type_and_name;
   put_rows(rows);
   text_ << " (\n";
   ++depth_;
-  line("interpolation = \"vertex\"");
+  line("interpolation = \"%\"", {what});
   close(")");
 }
 

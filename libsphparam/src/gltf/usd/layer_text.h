@@ -26,8 +26,11 @@ class LayerText {
 
   /// "TYPE[] NAME = [(…), …]", a tuple a row, with as many digits as float32 needs to be read back.
   void rows(std::string_view type_and_name, const FloatRows& rows);
-  /// The same of what vertices have.
-  void vertex_rows(std::string_view type_and_name, const FloatRows& rows);
+  /// The same of what vertices have, or "faceVarying": corners.
+  void varying_rows(std::string_view type_and_name, std::string_view what, const FloatRows& rows);
+  void vertex_rows(std::string_view type_and_name, const FloatRows& rows) {
+    varying_rows(type_and_name, "vertex", rows);
+  }
   void numbers(std::string_view type_and_name, const std::vector<std::uint32_t>& numbers);
 
   std::string take() { return text_.take(); }

@@ -4,6 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "gltf/usd/usd_head.h"
 #include "io/files/zip_archive.h"
 
 // By its own way of reading: numbers one after the other, whatever stands between them.
@@ -45,46 +46,47 @@ class ArrayNumbers {
   std::string_view left_;
 };
 
-bool holds_points(std::string_view layer, const FloatRows& points) {
-  ArrayNumbers<float> read(layer, "point3f[] points");
-  for (Eigen::Index i = 0; i < points.rows(); ++i)
-    for (int k = 0; k < 3; ++k)
-      if (!read.is(points(i, k))) return false;
+bool holds_rows(std::string_view layer, const char* declaration, const FloatRows& rows) {
+  ArrayNumbers<float> read(layer, declaration);
+  for (Eigen::Index i = 0; i < rows.rows(); ++i)
+    for (Eigen::Index k = 0; k < rows.cols(); ++k)
+      if (!read.is(rows(i, k))) return false;
   return read.at_end();
 }
 
-bool holds_triangles(std::string_view layer, const std::vector<std::uint32_t>& indices) {
-  ArrayNumbers<std::uint32_t> read(layer, "int[] faceVertexIndices");
-  ArrayNumbers<int> counts(layer, "int[] faceVertexCounts");
-  for (std::size_t i = 0; i < indices.size(); ++i)
-    if (!read.is(indices[i]) || (i % 3 == 0 && !counts.is(3))) return false;
-  return read.at_end() && counts.at_end();
-}
-
-bool holds_uv(std::string_view layer, const FloatRows& uv) {
-  ArrayNumbers<float> read(layer, "texCoord2f[] primvars:st");
-  for (Eigen::Index i = 0; i < uv.rows(); ++i)
-    if (!read.is(uv(i, 0)) || !read.is(1 - uv(i, 1))) return false;
+bool holds_numbers(std::string_view layer, const char* declaration,
+                   const std::vector<std::uint32_t>& numbers) {
+  ArrayNumbers<std::uint32_t> read(layer, declaration);
+  for (const std::uint32_t number : numbers)
+    if (!read.is(number)) return false;
   return read.at_end();
 }
 
-void check_layer(std::string_view layer, const std::string& name, const Surface& mesh) {
+void check_layer(std::string_view layer, const std::string& name, const UsdArrays& arrays) {
   const char* differs = nullptr;
-  if (!holds_points(layer, mesh.positions)) differs = "positions";
-  if (!holds_triangles(layer, mesh.indices)) differs = "triangles";
-  if (!mesh.texcoords.empty() && !holds_uv(layer, mesh.texcoords.front()))
-    differs = "texture coordinates";
+  if (!holds_rows(layer, "point3f[] points", arrays.points)) differs = "positions";
+  if (!holds_numbers(layer, "int[] faceVertexIndices", arrays.indices) ||
+      !holds_numbers(layer, "int[] faceVertexCounts", arrays.counts))
+    differs = "faces";
+  if (!holds_rows(layer, "texCoord2f[] primvars:st", arrays.st)) differs = "texture coordinates";
   if (differs) throw std::runtime_error(name + ", read back: " + differs + " differ");
 }
 
 }  // namespace
 
-void check_written_usd(std::string_view bytes, const std::string& name, const Asset& asset) {
-  const Surface& mesh = asset.levels.front();
-  if (!looks_like_zip(bytes)) return check_layer(bytes, name, mesh);
+void check_written_usd(std::string_view bytes, const std::string& name, const UsdArrays& arrays) {
+  if (!looks_like_zip(bytes)) return check_layer(bytes, name, arrays);
   const std::string layer =
       ZipArchive(bytes, name).unpacked(usdz_layer, std::numeric_limits<std::uint32_t>::max());
-  check_layer(layer, name, mesh);
+  check_layer(layer, name, arrays);
+}
+
+void check_written_usd(std::string_view bytes, const std::string& name, const Asset& asset) {
+  const Surface& mesh = asset.levels.front();
+  UsdArrays arrays{
+      mesh.positions, std::vector<std::uint32_t>(mesh.indices.size() / 3, 3), mesh.indices, {}};
+  if (!mesh.texcoords.empty()) arrays.st = upward(mesh.texcoords.front());
+  check_written_usd(bytes, name, arrays);
 }
 
 }  // namespace sphparam

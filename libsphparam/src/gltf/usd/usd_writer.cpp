@@ -8,11 +8,11 @@
 
 #include "gltf/images/image_kind.h"
 #include "gltf/usd/usd_check.h"
+#include "gltf/usd/usd_head.h"
 #include "gltf/usd/usd_materials.h"
 #include "io/files/stored_zip.h"
 #include "number_text.h"
 #include "sphparam/io/losses.h"
-#include "sphparam/version.h"
 
 namespace sphparam {
 
@@ -22,22 +22,12 @@ constexpr std::size_t bytes_of_vertex = 130, bytes_of_triangle = 24, bytes_of_re
 
 constexpr char bindable[] = "prepend apiSchemas = [\"MaterialBindingAPI\"]";
 
-/// v upwards.
-FloatRows upward(FloatRows uv) {
-  uv.col(1) = 1 - uv.col(1).array();
-  return uv;
-}
-
 FloatRows as_floats(const std::vector<std::array<std::uint16_t, 4>>& colours) {
   FloatRows rows(static_cast<Eigen::Index>(colours.size()), 3);
   for (Eigen::Index i = 0; i < rows.rows(); ++i)
     for (int k = 0; k < 3; ++k)
       rows(i, k) = static_cast<float>(colours[size_t(i)][size_t(k)]) / 65535.0F;
   return rows;
-}
-
-std::string tuple_of(const Eigen::RowVector3d& point) {
-  return "(" + joined({shortest(point[0]), shortest(point[1]), shortest(point[2])}) + ")";
 }
 
 class UsdLayer {
@@ -51,7 +41,7 @@ class UsdLayer {
               bytes_of_triangle * mesh_.indices.size() / 3) {}
 
   std::string text() {
-    put_head();
+    put_head(text_, asset_);
     open_root();
     put_mesh();
     if (!asset_.materials.empty()) put_materials();
@@ -62,26 +52,6 @@ class UsdLayer {
 
  private:
   bool has_variants() const { return asset_.materials.size() > 1; }
-
-  void put_head() {
-    text_.line("#usda 1.0");
-    text_.open("(");
-    text_.open("customLayerData = {");
-    text_.line(usd_creator());
-    if (!asset_.copyright.empty())
-      text_.line("string copyright = %", {usd_string(asset_.copyright)});
-    if (!asset_.source_extras.empty())
-      text_.line("string extras = %", {usd_string(asset_.source_extras)});
-    text_.open("dictionary sphparam = {");
-    for (const auto& [key, value] : asset_.extras)
-      text_.line("string % = %", {usd_name(key), usd_string(value)});
-    text_.close();
-    text_.close();
-    text_.line("defaultPrim = \"%\"", {name_});
-    text_.line("metersPerUnit = 1");
-    text_.line("upAxis = \"Y\"");
-    text_.close(")");
-  }
 
   void open_root() {
     text_.line("");
@@ -117,10 +87,7 @@ class UsdLayer {
     text_.rows("point3f[] points", mesh_.positions);
     put_primvars();
     text_.line("uniform token subdivisionScheme = \"none\"");
-    if (!mesh_.origin.isZero(0)) {
-      text_.line("double3 xformOp:translate = %", {tuple_of(mesh_.origin)});
-      text_.line("uniform token[] xformOpOrder = [\"xformOp:translate\"]");
-    }
+    put_origin(text_, mesh_.origin);
     text_.close();
   }
 
@@ -195,8 +162,6 @@ UsdFiles files_of(const Asset& asset, const std::string& in_layer, const std::st
 }
 
 }  // namespace
-
-std::string usd_creator() { return std::string("string creator = \"sphparam ") + version + "\""; }
 
 UsdFiles write_usd(const Asset& asset, const std::string& stem) {
   return files_of(asset, "./", stem + "_");
