@@ -27,7 +27,8 @@ std::string tetra(const std::string& attributes_of_first = "") {
 
 std::string model(const std::string& resources, const std::string& build,
                   const std::string& more = "") {
-  return "<?xml version=\"1.0\"?><model unit=\"inch\" xmlns=\"c\" xmlns:m=\"m\" xmlns:p=\"p\" xmlns:prod=\"p\">" +
+  return "<?xml version=\"1.0\"?><model unit=\"inch\" xmlns=\"c\" xmlns:m=\"m\" xmlns:p=\"p\" "
+         "xmlns:prod=\"p\">" +
          more + "<resources>" + resources + "</resources><build>" + build + "</build></model>";
 }
 
@@ -45,6 +46,17 @@ void refused(const std::string& text, const std::string& why) {
 }
 
 }  // namespace
+
+TEST_CASE("three_mf: numbers below the smallest are 0, those above the largest are refused") {
+  const auto with = [](const std::string& number) {
+    std::string object = one_object;
+    object.replace(object.find("x=\"1\""), 5, "x=\"" + number + "\"");
+    return model(object, one_item);
+  };
+  CHECK(read_model(with("1e-400")).mesh.positions(1, 0) == 0);
+  CHECK(read_model(with("-1e-310")).mesh.positions(1, 0) == -1e-310);
+  refused(with("1e400"), "expected a number for x");
+}
 
 TEST_CASE("three_mf: an object comes as it stands, stored, deflated or with fields of Zip64") {
   for (const Packing how : {Packing{}, Packing{.deflated = true}, Packing{.large = true},

@@ -128,6 +128,11 @@ TEST_CASE("vtk: a text of floats that says more than these hold keeps its digits
       "</Piece></PolyData></VTKFile>");
 }
 
+TEST_CASE("vtk: numbers below the smallest are 0, those above the largest are refused") {
+  CHECK(read(replaced(tetrahedron_vtk, "-1 -1 1", "1e-400 -1 1")).mesh.position(1).x() == 0);
+  CHECK_THROWS_AS(read(replaced(tetrahedron_vtk, "-1 -1 1", "1e400 -1 1")), ReadError);
+}
+
 TEST_CASE("vtk: what is written is read back bit for bit, and written again the same") {
   const MeshFile file = rich_mesh();
   const std::pair<Serialise*, const char*> formats[] = {{serialise_legacy_vtk, "a.vtk"},

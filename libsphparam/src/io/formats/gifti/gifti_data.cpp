@@ -10,6 +10,8 @@
 #include <cstring>
 #include <limits>
 
+#include "io/files/double_from_text.h"
+
 // text → (base64 → (inflate →)) bytes → numbers. The size is known before each step, and a step
 // that ends with more or less is an error: nothing is guessed, cut or padded with zeros.
 
@@ -148,7 +150,7 @@ std::vector<double> from_text(std::size_t count, const GiftiArray& array, Scalar
     if (at == end) break;
     if (numbers.size() == count) fail("more numbers than the dimensions say");
     double value = 0;
-    const auto [stop, error] = std::from_chars(at, end, value);
+    const auto [stop, error] = double_from_text(at, end, value);
     const bool whole_token = stop == end || is_blank(*stop);
     if (error != std::errc{} || !whole_token || !fit(value, type))
       fail("expected a number, found " + quoted({at, std::find_if(at, end, is_blank)}));

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "io/files/double_from_text.h"
 #include "parsed_number.h"
 #include "sphparam/io/mesh_file.h"
 
@@ -76,7 +77,7 @@ std::string with_e(std::string_view word) {
 }
 
 std::optional<double> real(std::string_view word) {
-  return parsed<double>(with_e(word.starts_with('+') ? word.substr(1) : word));
+  return parsed_double(with_e(word.starts_with('+') ? word.substr(1) : word));
 }
 
 bool is_count(std::string_view word) { return parsed<std::int64_t>(word).value_or(0) > 0; }

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <type_traits>
 
+#include "io/files/double_from_text.h"
 #include "io/files/non_finite_advice.h"
 #include "io/formats/xml_events.h"
 #include "sphparam/io/mesh_file.h"
@@ -32,9 +34,14 @@ std::optional<Number> take_number(std::string_view& text) {
   text = trimmed(text);
   if (text.starts_with('+')) text.remove_prefix(1);
   Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{}) return std::nullopt;
-  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  const char* const last = text.data() + text.size();
+  std::from_chars_result result;
+  if constexpr (std::is_same_v<Number, double>)
+    result = double_from_text(text.data(), last, value);
+  else
+    result = std::from_chars(text.data(), last, value);
+  if (result.ec != std::errc{}) return std::nullopt;
+  text.remove_prefix(static_cast<std::size_t>(result.ptr - text.data()));
   return value;
 }
 

@@ -8,6 +8,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "io/files/double_from_text.h"
 #include "parsed_number.h"
 #include "sphparam/io/read_options.h"
 
@@ -196,7 +197,7 @@ std::vector<double> LegacyVtkScanner::text_numbers(VtkType& type, std::size_t co
   for (double& value : values) {
     std::string_view text = word();
     if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
-    const std::optional<double> found = parsed<double>(text);
+    const std::optional<double> found = parsed_double(text);
     if (!found || !fits(*found, type))
       fail("expected a number, found " + (text.empty() ? "the end of the file" : quoted(text)));
     value = *found;

@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "io/files/base64.h"
+#include "io/files/double_from_text.h"
 #include "io/files/gzip.h"
 #include "io/formats/vtk/vtk_document.h"
 
@@ -162,7 +163,7 @@ std::vector<double> numbers_of_text(const VtkXmlArray& array, VtkType& type,
     if (at == end) break;
     double value = 0;
     const char* const start = *at == '+' ? at + 1 : at;
-    const auto [stop, error] = std::from_chars(start, end, value);
+    const auto [stop, error] = double_from_text(start, end, value);
     const bool whole = type != VtkType::Float32 && type != VtkType::Float64;
     if (error != std::errc{} || (stop != end && !is_blank(*stop)) ||
         (whole && value != std::floor(value)))
