@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <fstream>
 
 #include "io/polygons/welding.h"
 #include "sphparam/io/losses.h"
@@ -6,6 +7,7 @@
 #include "sphparam/io/read_options.h"
 #include "sphparam/io/up_axis.h"
 #include "sphparam/mesh/mesh_defects.h"
+#include "support/folder.h"
 
 using namespace sphparam;
 
@@ -265,6 +267,16 @@ Connections:  {
   CHECK(file.base_colours[0].factor == std::array<double, 4>{1, 1, 1, 1});
   CHECK(file.channels[0].emission.image == "e.png");
   CHECK(file.channels[0].emission.factor == std::array<double, 4>{1, 1, 1, 1});
+
+  // One that is named and is not there leaves the colour.
+  const tests::Folder folder;
+  const std::string path = folder / "a.fbx";
+  std::ofstream(path) << text;
+  const MeshFile alone = read_mesh(path);
+  CHECK(alone.base_colours[0].image == "d.png");
+  CHECK(alone.base_colours[0].factor[1] == Approx(0.8));
+  std::ofstream(folder / "d.png") << "a picture";
+  CHECK(read_mesh(path).base_colours[0].factor[1] == 1);
 }
 
 TEST_CASE("scene_reader: pictures are named beside the scene, wherever they were") {

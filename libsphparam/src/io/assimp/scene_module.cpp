@@ -87,11 +87,17 @@ void name_pictures(const aiScene& scene) {
 }
 
 /// Where a picture is, the colour beside it is not seen: in glTF it would be times the picture.
-void let_pictures_replace(const aiScene& scene) {
+/// Where it is named and is not there, the colour is what is left.
+void let_pictures_replace(const aiScene& scene, SphparamSceneFiles files) {
   const aiColor4D white(1, 1, 1, 1);
   for (unsigned m = 0; m < scene.mNumMaterials; ++m) {
     aiMaterial& material = *scene.mMaterials[m];
-    const auto has = [&](aiTextureType type) { return material.GetTextureCount(type) > 0; };
+    const auto has = [&](aiTextureType type) {
+      aiString path;
+      if (material.GetTexture(type, 0, &path) != aiReturn_SUCCESS) return false;
+      return scene.GetEmbeddedTexture(path.C_Str()) != nullptr ||
+             files.has(files.context, path.C_Str()) != 0;
+    };
     if (has(aiTextureType_DIFFUSE) || has(aiTextureType_BASE_COLOR)) {
       material.AddProperty(&white, 1, AI_MATKEY_COLOR_DIFFUSE);
       material.AddProperty(&white, 1, AI_MATKEY_BASE_COLOR);
@@ -207,8 +213,9 @@ int complain(SphparamSceneSink error, std::string_view why) {
   return 1;
 }
 
-int to_glb(const char* kind, const char* bytes, size_t size, SphparamSceneSink glb,
-           SphparamSceneCounts* counts, SphparamSceneSink warnings, SphparamSceneSink error) try {
+int to_glb(const char* kind, const char* bytes, size_t size, SphparamSceneFiles files,
+           SphparamSceneSink glb, SphparamSceneCounts* counts, SphparamSceneSink warnings,
+           SphparamSceneSink error) try {
   const Warnings told(warnings);
   Assimp::Importer importer;
   // A scene without meshes is not to show its nodes in their stead.
@@ -220,7 +227,7 @@ int to_glb(const char* kind, const char* bytes, size_t size, SphparamSceneSink g
   const std::unique_ptr<aiScene> scene(importer.GetOrphanedScene());
   if (std::string_view(kind) == "fbx") turn_and_scale(*scene);
   name_pictures(*scene);
-  let_pictures_replace(*scene);
+  let_pictures_replace(*scene, files);
   std::vector<bool> seen(scene->mNumMeshes);
   counts->skins = pose_meshes(*scene, *scene->mRootNode, seen);
   counts->animations = drop_animations(*scene);

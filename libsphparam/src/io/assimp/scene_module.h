@@ -20,18 +20,26 @@ struct SphparamSceneCounts {
   long animations;
 };
 
+/// The files beside the scene; `has` is 0 for a name that none has.
+struct SphparamSceneFiles {
+  int (*has)(void* context, const char* name);
+  void* context;
+};
+
 struct SphparamSceneTable {
   int version;
   /// A scene in memory as the bytes of a GLB: `kind` is "fbx", "dae", "3ds" or "x3d". Opens no
   /// other file. Meshes with a skin are posed as their joints stand at rest, whatever is animated.
+  /// Colours beside pictures that are there are white, as they are not seen.
   /// `warnings`: a line each. Returns 0, or 1 after telling `error` why.
-  int (*to_glb)(const char* kind, const char* bytes, size_t size, SphparamSceneSink glb,
-                SphparamSceneCounts* counts, SphparamSceneSink warnings, SphparamSceneSink error);
+  int (*to_glb)(const char* kind, const char* bytes, size_t size, SphparamSceneFiles files,
+                SphparamSceneSink glb, SphparamSceneCounts* counts, SphparamSceneSink warnings,
+                SphparamSceneSink error);
 };
 
 /// The module's one exported name.
 typedef const SphparamSceneTable* (*SphparamSceneTableFunction)();
 }
 
-constexpr int sphparam_scene_table_version = 5;
+constexpr int sphparam_scene_table_version = 6;
 constexpr char sphparam_scene_table_name[] = "sphparam_scene_table";

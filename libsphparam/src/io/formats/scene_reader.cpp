@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <iterator>
 #include <utility>
 #include <vector>
 
 #include "io/assimp/scene_module.h"
+#include "io/attributes/named_file.h"
 #include "io/files/child_process.h"
 #include "io/files/modules.h"
 #include "io/formats/gltf/gltf_reader.h"
@@ -55,15 +57,28 @@ struct Scene {
   std::string glb;
 };
 
+using Folder = std::optional<std::filesystem::path>;
+
+/// Whether pictures are beside the scene; of a scene without a folder nobody knows, and all are.
+SphparamSceneFiles files_in(const Folder& folder) {
+  return {[](void* context, const char* name) -> int {
+            const auto& place = *static_cast<const Folder*>(context);
+            std::error_code hidden;
+            return !place ||
+                   std::filesystem::exists(*place / file_below(*place, "", name).path, hidden);
+          },
+          const_cast<Folder*>(&folder)};
+}
+
 /// In a process of its own: broken files make assimp crash.
-Scene scene_of(const char* kind, std::string_view bytes) {
+Scene scene_of(const char* kind, std::string_view bytes, const Folder& folder) {
   const SphparamSceneTable& scenes = scene_table();
   const std::string answer = result_of_child(
       [&] {
         std::string glb, warnings, complaint(1, '!');
         SphparamSceneCounts counts = {};
-        const int code = scenes.to_glb(kind, bytes.data(), bytes.size(), into(glb), &counts,
-                                       into(warnings), into(complaint));
+        const int code = scenes.to_glb(kind, bytes.data(), bytes.size(), files_in(folder),
+                                       into(glb), &counts, into(warnings), into(complaint));
         if (code != 0) return complaint;
         return std::to_string(counts.skins) + ' ' + std::to_string(counts.animations) + ' ' +
                std::to_string(warnings.size()) + ' ' + warnings + glb;
@@ -121,7 +136,7 @@ std::string without_name_of_memory(std::string text) {
 MeshFile read_scene(const char* kind, const char* format, std::string_view bytes,
                     const std::string& name, const std::optional<std::filesystem::path>& folder,
                     const ReadOptions& options) try {
-  const Scene scene = scene_of(kind, bytes);
+  const Scene scene = scene_of(kind, bytes, folder);
   MeshFile file = read_gltf(scene.glb, name, folder, options,
                             {.posed_skins = scene.counts.skins,
                              .animations = scene.counts.animations,
