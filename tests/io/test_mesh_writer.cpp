@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "reading.h"
+#include "sphparam/io/losses.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/polygons.h"
 
@@ -86,6 +87,19 @@ TEST_CASE("mesh_writer: float32 stays float32 while it is exact, and no longer")
   CHECK(contains(bytes, "property uchar a"));
   CHECK(contains(bytes, "property double b"));
   CHECK(values_of(read(bytes).find_vertex_property("c"))[3] == 0.5);
+}
+
+TEST_CASE("mesh_writer: fractions for colours that bytes round are told, with how many") {
+  MeshFile file = read(tetrahedron_ply);
+  // Steps of 255, as texts of four digits have them too, are what they were.
+  for (const char* name : {"red", "green", "blue"})
+    file.vertex_properties.push_back({name, ScalarType::Float32, {0, 0.6667, 51.0 / 255, 1}});
+  CHECK(losses_of_writing(file, read(serialise_ply(file))).empty());
+  file.vertex_properties.back().values[1] = 0.5;
+  CHECK(losses_of_writing(file, read(serialise_ply(file))) ==
+        std::vector<std::string>{"not carried: the last digits of 1 of 4 colours of vertices: they "
+                                 "are bytes there, the nearest of 255 steps"});
+  CHECK(losses_of_writing(file, read(serialise_obj(file), "a.obj")).empty());
 }
 
 TEST_CASE("mesh_writer: write, read, write gives the same bytes") {

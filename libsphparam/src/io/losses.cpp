@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <set>
 
@@ -126,6 +127,28 @@ void compare_properties(const MeshFile& written, const MeshFile& read,
   tell(renamed, "properties whose numbers are kept without their names");
 }
 
+/// Colours from 0 to 1 that are no 255th, by more than texts of four digits are off, where they are
+/// bytes now.
+void compare_colours(const MeshFile& written, const MeshFile& read,
+                     std::vector<std::string>& losses) {
+  constexpr double brightest = 255, off_in_text = 0.02;
+  const auto count = static_cast<std::size_t>(written.mesh.vertex_count());
+  if (read.mesh.vertex_count() != written.mesh.vertex_count()) return;
+  std::vector<char> changed(count, 0);
+  for (const char* channel : {"red", "green", "blue", "alpha"}) {
+    const Property* const before = written.find_vertex_property(channel);
+    const Property* const after = read.find_vertex_property(channel);
+    if (!before || !after || !is_floating(before->type) || is_floating(after->type)) continue;
+    for (std::size_t v = 0; v < count; ++v)
+      changed[v] |= std::abs(brightest * before->values[v] - after->values[v]) > off_in_text;
+  }
+  const auto all = std::ranges::count(changed, 1);
+  if (all > 0)
+    add_loss(losses, "the last digits of " + std::to_string(all) + " of " +
+                         counted(std::ssize(changed), "colour") +
+                         " of vertices: they are bytes there, the nearest of 255 steps");
+}
+
 void compare_labels(const MeshFile& written, const MeshFile& read,
                     std::vector<std::string>& losses) {
   for (const auto properties : {&MeshFile::vertex_properties, &MeshFile::face_properties}) {
@@ -198,6 +221,7 @@ std::vector<std::string> losses_of_writing(const MeshFile& written, const MeshFi
   std::vector<std::string> losses;
   compare_positions(written, read, losses);
   compare_properties(written, read, losses);
+  compare_colours(written, read, losses);
   compare_labels(written, read, losses);
   compare_corners(written, read, losses);
   compare_materials(written, read, losses);
