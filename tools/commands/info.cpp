@@ -61,8 +61,7 @@ std::optional<SelfCrossings> looked_for_crossings(const MeshSource& source,
                                                   const InfoArguments& arguments,
                                                   Session& session) {
   if (!arguments.crossings) return std::nullopt;
-  session.console.progress("crossings", 0);
-  return crossings_of(source.file, session.threads());
+  return crossings_of(source.file, session.threads(), session.progress());
 }
 
 int tell_mesh(const MeshSource& source, const InfoArguments& arguments, Session& session) {

@@ -195,8 +195,9 @@ Json defects_json(const std::vector<MeshDefect>& defects) {
 
 }  // namespace
 
-SelfCrossings crossings_of(const MeshFile& file, int threads) {
-  const SelfCrossingOptions options{.most_looks = usual_looks, .threads = threads};
+SelfCrossings crossings_of(const MeshFile& file, int threads, const Progress& progress) {
+  const SelfCrossingOptions options{
+      .most_looks = usual_looks, .threads = threads, .progress = progress};
   const FillerMarks fillers = fillers_of(file);
   if (fillers.empty()) return find_self_crossings(file.mesh, options);
   if (std::ranges::count(fillers, 0) == 0) return {};  // no surface

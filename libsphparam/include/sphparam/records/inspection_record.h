@@ -8,6 +8,7 @@
 #include "sphparam/io/repair_advice.h"
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/mesh/self_crossings.h"
+#include "sphparam/progress.h"
 
 namespace sphparam {
 
@@ -22,8 +23,8 @@ struct InspectionRecord {
 };
 
 /// Counts the pairs of triangles of a mesh that cross, but for its fillers; of a soup it ends early
-/// (`usual_looks`). Cost: as `find_self_crossings`.
-SelfCrossings crossings_of(const MeshFile& file, int threads = 0);
+/// (`usual_looks`). Throws: Cancelled. Cost: as `find_self_crossings`.
+SelfCrossings crossings_of(const MeshFile& file, int threads = 0, const Progress& progress = {});
 
 /// Why a subcommand made nothing of a mesh.
 struct RefusalRecord {
