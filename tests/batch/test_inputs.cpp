@@ -48,6 +48,15 @@ TEST_CASE("inputs: a folder is its meshes, below it too, and nothing else") {
   CHECK(tree.ids("") == Ids{"a", "b", "c"});
 }
 
+TEST_CASE("inputs: a folder of texts is told how shape models among them are named") {
+  TreeOfFiles tree({"in/eros.txt", "in/notes.txt"});
+  CHECK_THROWS_WITH(tree.ids("in"),
+                    Contains("no mesh in this folder; 2 files are called *.txt: shape models of "
+                             "bodies among them are named by a pattern, as '") &&
+                        Contains("in/*.txt'"));
+  CHECK(tree.ids("in/*.txt") == Ids{"eros.txt", "notes.txt"});
+}
+
 TEST_CASE("inputs: meshes of one name are told apart by as many folders as it takes") {
   TreeOfFiles tree({"x/left/m.ply", "y/left/m.ply", "only.ply"});
   CHECK(tree.ids("") == Ids{"only", "x_left_m", "y_left_m"});

@@ -192,7 +192,17 @@ class Finder {
       throw BatchInputError(
           place.string() + ": no mesh in this folder" +
           (is_data_set ? " is called *_" + options_.surface + ".surf.gii; see --surface" : "") +
-          (notes().empty() ? "" : "; " + joined(notes(), "; ")));
+          words_of_texts(place) + (notes().empty() ? "" : "; " + joined(notes(), "; ")));
+  }
+
+  /// Shape models may be among them, and notes.
+  std::string words_of_texts(const fs::path& place) {
+    const auto texts = std::ranges::count_if(
+        sorted(place), [](const fs::path& file) { return file.extension() == ".txt"; });
+    if (texts == 0) return "";
+    return "; " + counted(texts, "file is", "files are") +
+           " called *.txt: shape models of bodies among them are named by a pattern, as '" +
+           (place / "*.txt").string() + "'";
   }
 
   static std::string left_out(const std::vector<std::string>& names, const std::string& one,
