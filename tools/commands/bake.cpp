@@ -2,6 +2,7 @@
 
 #include "sphparam/bake/bake.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
@@ -15,6 +16,7 @@
 #include "io/shell_word.h"
 #include "number_text.h"
 #include "reports/told_losses.h"
+#include "sphparam/io/body_longitudes.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/sphere_file.h"
 #include "sphparam/records/bake_record.h"
@@ -137,6 +139,21 @@ BakeArguments of_part(BakeArguments arguments, int part) {
   return arguments;
 }
 
+/// A map that was made here for the images has the directions that came of it, in no file: of
+/// numbers of a sphere, as measured on one, that is not where they belong.
+void tell_turned(const MappedMesh& source, const std::vector<BakeRequest>& images,
+                 const BakeSettings& settings, Session& session) {
+  const auto is_scalar = [](const BakeRequest& image) {
+    return image.field.starts_with("scalar:");
+  };
+  if (!source.mapped_here() || settings.convention == Convention::Gis ||
+      std::ranges::none_of(images, is_scalar))
+    return;
+  const std::string off = directions_turned(source, settings.fields.centre, session.threads());
+  if (!off.empty())
+    session.console.warning("the directions of these images are the map's, not the body's: " + off);
+}
+
 /// Bakes the images of one mesh; returns the report, and adds to the lines that are told at the
 /// end.
 std::string bake_one(const BakeArguments& arguments, Session& session, Words& lines) {
@@ -150,6 +167,7 @@ std::string bake_one(const BakeArguments& arguments, Session& session, Words& li
                        !source.mapped_here() && arguments.sphere.empty());
   tell_longitudes(source, settings.convention, settings.fields.body.has_value(),
                   settings.fields.centre, session);
+  tell_turned(source, images, settings, session);
   const BakeReport baked = bake_for_user(source, images, settings, arguments, session.files);
   session.warn(baked.warnings);
   if (!baked.coordinate_system.empty())

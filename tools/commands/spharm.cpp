@@ -72,8 +72,12 @@ void require_scalars(const MeshFile& file, const SpharmArguments& arguments) {
     if (file.find_vertex_property(name)) continue;
     if (file.find_face_property(name))
       throw UsageMistake("--scalar: " + name +
-                         " is a property of faces; harmonics are of what vertices have");
-    throw UsageMistake("--scalar: the vertices have no property " + what_there_is(file, name));
+                         " is a property of faces; harmonics are of what vertices have: ParaView's "
+                         "Cell Data to Point Data averages it onto them");
+    throw UsageMistake("--scalar: the vertices have no property " + what_there_is(file, name) +
+                       (name.find(',') == std::string::npos
+                            ? ""
+                            : "; the option is given once for each: --scalar A --scalar B"));
   }
 }
 
@@ -94,10 +98,21 @@ std::optional<Vector3> centre_of_radius(const SpharmArguments& arguments, const 
   return centre;
 }
 
+/// Of scalars alone: their directions are the map's. Spheres that `--align` turns have their own.
+void tell_directions(const SpharmArguments& arguments, const MappedMesh& mapped, Session& session) {
+  if (arguments.has_radius() || arguments.scalars.empty() || !arguments.align.empty()) return;
+  const std::string off =
+      directions_turned(mapped, arguments.centre.of(mapped.mesh()), session.threads());
+  if (!off.empty())
+    session.console.warning("the directions of these harmonics are the map's, not the body's: " +
+                            off);
+}
+
 HarmonicExpansion expand(const SpharmArguments& arguments, const MappedMesh& mapped,
                          Session& session) {
   require_measurable(mapped.mesh());
   tell_counted_fillers(mapped, "these harmonics", session.console);
+  tell_directions(arguments, mapped, session);
   HarmonicExpansion expansion = expand_in_harmonics(mapped, arguments.scalars,
                                                     {.degree = arguments.wanted_degree(),
                                                      .least_squares = arguments.least_squares,
@@ -119,6 +134,13 @@ void align_as_asked(const SpharmArguments& arguments, const MappedMesh& mapped,
     throw ReadError(display_name(arguments.flips), error.what());
   }
   if (expansion.alignment) session.warn(doubts_about(*expansion.alignment));
+}
+
+/// Least squares alone weigh vertices.
+void warn_of_heavy_vertices(const SpharmArguments& arguments, const MappedMesh& mapped,
+                            Console& console) {
+  if (!arguments.least_squares) return;
+  if (const std::string line = heavy_vertices_line(mapped); !line.empty()) console.warning(line);
 }
 
 /// The residual at the vertices says nothing of what they leave open.
@@ -211,6 +233,7 @@ int run_spharm(SpharmArguments& arguments) {
   Session session(arguments);
   const MappedMesh mapped = read_expanded(arguments, session);
   HarmonicExpansion expansion = expand(arguments, mapped, session);
+  warn_of_heavy_vertices(arguments, mapped, session.console);
   warn_of_open_degrees(expansion, session.console);
   align_as_asked(arguments, mapped, expansion, session);
   session.add_report([&] { return to_json(expansion, arguments.input, mapped.provenance()); });

@@ -45,22 +45,44 @@ std::string why_off(const MappedMesh& mapped, const std::optional<Planetocentric
   return why + what + (centre.isZero(0) ? "" : ", with --centre " + typed);
 }
 
-}  // namespace
+std::string line_of(const MappedMesh& mapped, const std::optional<Planetocentric>& radial,
+                    const Vector3& centre, double angle) {
+  return "the map's longitudes and latitudes are " + short_number(angle) +
+         "° from those of the body (RMS over the surface); " + why_off(mapped, radial, centre);
+}
 
-std::string longitudes_off(const MappedMesh& mapped, const Vector3& centre, bool of_bodies_only,
-                           int threads) try {
-  constexpr double degrees = 180 / std::numbers::pi, nothing = 1e-4;
+/// Degrees, RMS over the surface.
+double degrees_off(const MappedMesh& mapped, const SphereMap& directions) {
+  constexpr double degrees = 180 / std::numbers::pi;
+  return degrees * rms_angle(mapped.map(), directions,
+                             vertex_areas(surface_of(mapped.mesh(), mapped.fillers())));
+}
+
+/// Empty where it is less, and of what is no body.
+std::string line_of_body(const MappedMesh& mapped, const Vector3& centre, double least,
+                         bool of_bodies_only, int threads) try {
   const std::optional<Planetocentric> radial = planetocentric(mapped.provenance());
   const SphereMap directions = body_directions(mapped.file(), centre);
   if (of_bodies_only && !radial && !is_like_body(mapped, directions, threads)) return "";
-  const double angle =
-      degrees * rms_angle(mapped.map(), directions,
-                          vertex_areas(surface_of(mapped.mesh(), mapped.fillers())));
-  if (!(angle >= nothing)) return "";
-  return "the map's longitudes and latitudes are " + short_number(angle) +
-         "° from those of the body (RMS over the surface); " + why_off(mapped, radial, centre);
+  const double angle = degrees_off(mapped, directions);
+  return angle >= least ? line_of(mapped, radial, centre, angle) : "";
 } catch (const VertexAtCentre&) {  // no body about it
   return "";
+}
+
+}  // namespace
+
+std::string longitudes_off(const MappedMesh& mapped, const Vector3& centre, bool of_bodies_only,
+                           int threads) {
+  constexpr double nothing = 1e-4;
+  return line_of_body(mapped, centre, nothing, of_bodies_only, threads);
+}
+
+std::string directions_turned(const MappedMesh& mapped, const std::optional<Vector3>& centre,
+                              int threads) {
+  constexpr double turned = 45;
+  return line_of_body(mapped, body_centre(planetocentric(mapped.provenance()), centre), turned,
+                      true, threads);
 }
 
 }  // namespace sphparam

@@ -12,7 +12,10 @@
 #include "place_text.h"
 #include "records/harmonic_bases.h"
 #include "records/json_parts.h"
+#include "sphere/solid_angle.h"
+#include "sphparam/io/file_numbers.h"
 #include "sphparam/version.h"
+#include "sphparam/words.h"
 
 namespace sphparam {
 
@@ -206,6 +209,26 @@ std::string undecided_line(const HarmonicExpansion& expansion) {
   return numbers + "the vertices decide harmonics up to degree " +
          std::to_string(*expansion.fit.decided_degree) +
          ", and what they leave open beyond is near the integral's";
+}
+
+std::string heavy_vertices_line(const MappedMesh& mapped) {
+  constexpr double least_share = 0.01, least_times = 20;
+  const VectorX shares =
+      vertex_solid_angles(mapped.topology(), mapped.map()) / (4 * std::numbers::pi);
+  std::vector<double> sorted(shares.begin(), shares.end());
+  const auto middle = sorted.begin() + std::ssize(sorted) / 2;
+  std::ranges::nth_element(sorted, middle);
+  const double median = *middle;
+  const auto heavy = (shares.array() >= std::max(least_share, least_times * median)).eval();
+  if (!heavy.any()) return "";
+  Eigen::Index heaviest = 0;
+  const double most = shares.maxCoeff(&heaviest);
+  const double all = heavy.select(shares.array(), 0.0).sum();
+  return counted(heavy.count(), "vertex stands", "vertices stand") + " for " + percent(all) +
+         " of the sphere, as on the rim of a gap without vertices: what these carry decides the "
+         "coefficients, and so does its noise; vertex " +
+         std::to_string(FileNumbers(mapped.file()).number(static_cast<Vertex>(heaviest))) +
+         " for " + percent(most) + ", " + short_number(most / median) + " times the median";
 }
 
 std::string decided_change_line(const HarmonicExpansion& expansion) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sphparam/io/harmonic_expansion.h"
+#include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/sphere_file.h"
 
 namespace sphparam {
@@ -42,6 +43,10 @@ std::string residual_line(const HarmonicExpansion& expansion);
 /// For people: up to which degree the vertices decide the coefficients, where they do not decide
 /// all; else empty.
 std::string undecided_line(const HarmonicExpansion& expansion);
+
+/// That one vertex or more stand for 1 % of the sphere and for 20 times what is usual of vertices,
+/// as on the rim of a gap: a fit follows what these carry; else empty. Cost: O(#V).
+std::string heavy_vertices_line(const MappedMesh& mapped);
 
 /// That coefficients of degrees that vertices do decide are other ones than a fit of these degrees
 /// alone has, by 0.1 % of a degree's size or more; else empty.
