@@ -74,7 +74,7 @@ TEST_CASE("normal line: one that misses the surface stops where it is nearest") 
   CHECK(crossing.height == Approx(0.2).margin(0.01));
 }
 
-TEST_CASE("normal line: many at once are found as one by one") {
+TEST_CASE("normal line: many at once are found as one by one, of faces alike and not") {
   TriangleMesh mesh = tests::icosphere(3);
   for (Eigen::Index v = 0; v < mesh.vertex_count(); ++v) {
     const Vector3 q = mesh.positions.row(v);
@@ -82,23 +82,28 @@ TEST_CASE("normal line: many at once are found as one by one") {
   }
   const Topology topology(mesh);
   const NormalLines lines(mesh, topology);
-  LineTable table(static_cast<size_t>(mesh.face_count()) - 3);  // a last run that is not full
-  std::vector<SurfacePoint> known;
-  for (Face f = 0; known.size() < table.origins[0].size(); ++f) {
-    known.push_back({f, Vector3(0.5, 0.3, 0.2)});
-    const double share = 0.4 + 0.2 * (f % 8);  // on both sides of the surface
+  const size_t count = 2 * static_cast<size_t>(mesh.face_count()) - 3;  // a last run not full
+  LineTable table(count);
+  PointTable known(count);
+  size_t alike = 0;  // lines of the same face
+  Face f = -1;
+  for (size_t i = 0; i < count; ++i) {
+    if (alike-- == 0) alike = static_cast<size_t>(++f % 12);
+    known.set(i, {f, Vector3(0.5, 0.3, 0.2)});
+    const double share = 0.4 + 0.2 * static_cast<double>(i % 8);  // on both sides of the surface
     const Vector3 point = mesh.position(mesh.triangles(f, 0)),
-                  normal = (point + Vector3(0.4, -0.3, 0.1) * (f % 3)).normalized();
+                  normal =
+                      (point + Vector3(0.4, -0.3, 0.1) * static_cast<double>(i % 3)).normalized();
     for (size_t k = 0; k < 3; ++k) {
-      table.origins[k][known.size() - 1] = share * point[static_cast<int>(k)];
-      table.normals[k][known.size() - 1] = normal[static_cast<int>(k)];
+      table.origins[k][i] = share * point[static_cast<int>(k)];
+      table.normals[k][i] = normal[static_cast<int>(k)];
     }
   }
-  std::vector<NormalLines::Crossing> crossings(known.size());
+  std::vector<NormalLines::Crossing> crossings(count);
   lines.find_all(table, known, crossings);
   int hits[3] = {};
-  for (size_t i = 0; i < known.size(); ++i) {
-    const auto one = [i](const std::array<std::vector<double>, 3>& x) {
+  for (size_t i = 0; i < count; ++i) {
+    const auto one = [i](const std::array<PaddedNumbers, 3>& x) {
       return Vector3(x[0][i], x[1][i], x[2][i]);
     };
     const auto alone = lines.find(one(table.origins), one(table.normals), known[i]);

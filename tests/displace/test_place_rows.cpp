@@ -14,12 +14,13 @@ namespace {
 
 constexpr int width = 101;  // a last run that is not full
 
-Points row_at(double phi) {
-  Points directions(width, 3);
-  for (int c = 0; c < width; ++c) {
-    const double theta = 2 * std::numbers::pi * (c + 0.5) / width;
-    directions.row(c) << std::cos(theta) * std::sin(phi), std::sin(theta) * std::sin(phi),
-        std::cos(phi);
+DirectionTable row_at(double phi) {
+  DirectionTable directions(width);
+  for (size_t c = 0; c < width; ++c) {
+    const double theta = 2 * std::numbers::pi * (static_cast<double>(c) + 0.5) / width;
+    directions.x[0][c] = std::cos(theta) * std::sin(phi);
+    directions.x[1][c] = std::sin(theta) * std::sin(phi);
+    directions.x[2][c] = std::cos(phi);
   }
   return directions;
 }
@@ -37,15 +38,16 @@ TEST_CASE("place rows: what is found below a row is what a search anew finds, ne
     for (const double step : {0.03, 0.2}) {
       PlaceFinder finder(base), anew(base);
       PlaceRows rows(finder);
+      LineTable lines(width);
       for (double phi = 0.005; phi < std::numbers::pi; phi += step) {
-        const Points directions = row_at(phi);
-        rows.find_next(directions);
-        for (int c = 0; c < width; ++c) {
+        const DirectionTable directions = row_at(phi);
+        rows.find_next(directions, lines);
+        for (size_t c = 0; c < width; ++c) {
           INFO(subject.name << ", ϕ " << phi << ", column " << c);
-          const LimitPlace& place = rows.places()[static_cast<size_t>(c)];
-          REQUIRE(rows.exact(static_cast<size_t>(c)));
+          const LimitPlace place = rows.places()[c];
+          REQUIRE(rows.exact(c));
           REQUIRE(base.net().beyond(place) <= 0);
-          const Vector3 direction = directions.row(c);
+          const Vector3 direction = directions[c];
           REQUIRE((base.directions().evaluate(place).position.normalized() - direction).norm() <
                   5e-8);
           anew.start_anew();
@@ -66,13 +68,14 @@ TEST_CASE(
     for (const double step : {0.01, 0.05, 0.1, 0.15}) {
       PlaceFinder finder(base);
       PlaceRows rows(finder);
+      LineTable lines(width);
       for (double phi = 0.005; phi < std::numbers::pi; phi += step) {
-        const Points directions = row_at(phi);
-        rows.find_next(directions);
-        for (int c = 0; c < width; ++c) {
-          const LimitPlace& place = rows.places()[static_cast<size_t>(c)];
+        const DirectionTable directions = row_at(phi);
+        rows.find_next(directions, lines);
+        for (size_t c = 0; c < width; ++c) {
+          const LimitPlace place = rows.places()[c];
           const Vector3 found = base.directions().evaluate(place).position.normalized();
-          worst = std::max(worst, (found.transpose() - directions.row(c)).norm());
+          worst = std::max(worst, (found - directions[c]).norm());
         }
       }
     }
@@ -87,11 +90,12 @@ TEST_CASE("place rows: of a finder that was asked before the first row is the sa
     const SphereGrid grid = subject.grid();
     const DirectedBase base(grid, grid.directions, subject.scheme);
     PlaceFinder fresh(base), asked(base);
-    const Points directions = row_at(1.1);
-    asked.find((directions.row(0) + directions.row(1)).normalized());
+    const DirectionTable directions = row_at(1.1);
+    asked.find((directions[0] + directions[1]).normalized());
     PlaceRows of_fresh(fresh), of_asked(asked);
-    of_fresh.find_next(directions);
-    of_asked.find_next(directions);
+    LineTable lines(width);
+    of_fresh.find_next(directions, lines);
+    of_asked.find_next(directions, lines);
     for (size_t c = 0; c < width; ++c) CHECK(same(of_fresh.places()[c], of_asked.places()[c]));
   }
 }
@@ -101,16 +105,17 @@ TEST_CASE("place rows: where directions fold over, the flat grid's place is told
   const DirectedBase odd(crumpled, crumpled.directions, Scheme::Loop);
   PlaceFinder finder(odd);
   PlaceRows rows(finder);
+  LineTable lines(width);
   int inexact = 0;
   for (double phi = 0.01; phi < std::numbers::pi; phi += 0.02) {
-    const Points directions = row_at(phi);
-    rows.find_next(directions);
-    for (int c = 0; c < width; ++c) {
-      const LimitPlace& place = rows.places()[static_cast<size_t>(c)];
+    const DirectionTable directions = row_at(phi);
+    rows.find_next(directions, lines);
+    for (size_t c = 0; c < width; ++c) {
+      const LimitPlace place = rows.places()[c];
       CHECK(odd.net().beyond(place) <= 0);
       const Vector3 there = odd.directions().evaluate(place).position.normalized();
-      const Vector3 direction = directions.row(c);
-      if (rows.exact(static_cast<size_t>(c))) {
+      const Vector3 direction = directions[c];
+      if (rows.exact(c)) {
         CHECK((there - direction).norm() < 1e-6);
       } else {
         ++inexact;
@@ -120,6 +125,42 @@ TEST_CASE("place rows: where directions fold over, the flat grid's place is told
   }
   CHECK(inexact > 10);
   CHECK(inexact < 150 * width);
+}
+
+TEST_CASE("place rows: the lines of a row are those of its places to the bit") {
+  for (const LimitSubject& subject : base_subjects) {
+    const SphereGrid grid = subject.grid();
+    const DirectedBase base(grid, 2 * grid.directions, subject.scheme);
+    PlaceFinder finder(base);
+    PlaceRows rows(finder);
+    LineTable lines(width), anew(width);
+    for (double phi = 0.005; phi < std::numbers::pi; phi += 0.03) {
+      rows.find_next(row_at(phi), lines);
+      std::vector<LimitPlace> places;
+      for (size_t c = 0; c < width; ++c) places.push_back(rows.places()[c]);
+      find_normals(places, finder, anew);
+      for (size_t k = 0; k < 3; ++k) {
+        for (size_t c = 0; c < width; ++c) {
+          INFO(subject.name << ", ϕ " << phi << ", column " << c);
+          REQUIRE(lines.origins[k][c] == anew.origins[k][c]);
+          REQUIRE(lines.normals[k][c] == anew.normals[k][c]);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("finder pool: a finder comes back with its patches, and nobody else has it meanwhile") {
+  const SphereGrid grid = make_grid(parse_grid("ico:2"));
+  const DirectedBase base(grid, grid.directions, Scheme::Loop);
+  const FinderPool pool(base);
+  const PlaceFinder* first = nullptr;
+  {
+    const FinderPool::Lent one = pool.lend(), other = pool.lend();
+    CHECK(&*one != &*other);
+    first = &*one;
+  }
+  CHECK(&*pool.lend() == first);
 }
 
 TEST_CASE("base normals: origins and unit normals are those of the surface's points") {

@@ -8,7 +8,8 @@
 namespace sphparam {
 
 /// Lines along the normals of a base's surface, from there; where it has none, that is 0.
-/// Requires: lines as many as places.
-void find_normals(std::span<const LimitPlace> places, PlaceFinder& patches, LineTable& lines);
+/// Requires: lines from `first` on as many as places.
+void find_normals(std::span<const LimitPlace> places, PlaceFinder& patches, LineTable& lines,
+                  size_t first = 0);
 
 }  // namespace sphparam

@@ -4,10 +4,8 @@
 #include "displace/displacement.h"
 
 #include <numbers>
-#include <span>
 #include <vector>
 
-#include "displace/base_normals.h"
 #include "displace/filled_rows.h"
 #include "displace/place_rows.h"
 #include "elementary.h"
@@ -20,42 +18,50 @@ class Rows {
  public:
   Rows(const DirectedBase& base, const TriangleMesh& mesh, const Topology& topology,
        const SphereLocator& locator, const DisplacementOptions& options)
-      : base_(base), options_(options), locator_(locator), lines_(mesh, topology) {
-    around_.resize(options.width, 2);
+      : options_(options), locator_(locator), lines_(mesh, topology), finders_(base) {
     for (int c = 0; c < options.width; ++c) {
       const double theta = 2 * std::numbers::pi * (c + 0.5) / options.width;
-      around_.row(c) << elementary::cos(theta), elementary::sin(theta);
+      cosines_.push_back(elementary::cos(theta));
+      sines_.push_back(elementary::sin(theta));
     }
   }
 
   Tally fill(std::int64_t first, std::int64_t last, Image& image) const {
-    Points directions(options_.width, 3);
-    std::vector<SurfacePoint> on_mesh(static_cast<size_t>(options_.width));
-    PlaceFinder patches(base_);
-    PlaceRows places(patches);
-    LineTable normals(on_mesh.size());
-    std::vector<NormalLines::Crossing> crossings(on_mesh.size());
+    const size_t width = cosines_.size();
+    DirectionTable directions(width);
+    PointTable on_mesh(width);
+    LineTable normals(width);
+    std::vector<NormalLines::Crossing> crossings(width);
+    const FinderPool::Lent patches = finders_.lend();
+    PlaceRows places(*patches);
     Tally tally;
     for (std::int64_t row = first; row < last; ++row) {
-      const double phi = std::numbers::pi * (static_cast<double>(row) + 0.5) / options_.height;
-      directions.leftCols(2) = elementary::sin(phi) * around_;
-      directions.col(2).setConstant(elementary::cos(phi));
-      locator_.locate_all(directions, std::span(on_mesh), 1);
-      places.find_next(directions);
-      find_normals(places.places(), patches, normals);
+      find_directions(row, directions);
+      locator_.locate(directions, on_mesh);
+      places.find_next(directions, normals);
       lines_.find_all(normals, on_mesh, crossings);
-      for (size_t c = 0; c < on_mesh.size(); ++c) tally.inexact += !places.exact(c);
+      for (size_t c = 0; c < width; ++c) tally.inexact += !places.exact(c);
       tally.store(crossings, image.pixel(0, static_cast<int>(row)));
     }
     return tally;
   }
 
  private:
-  const DirectedBase& base_;
+  void find_directions(std::int64_t row, DirectionTable& directions) const {
+    const double phi = std::numbers::pi * (static_cast<double>(row) + 0.5) / options_.height,
+                 sine = elementary::sin(phi), cosine = elementary::cos(phi);
+    for (size_t c = 0; c < directions.count; ++c) {
+      directions.x[0][c] = sine * cosines_[c];
+      directions.x[1][c] = sine * sines_[c];
+      directions.x[2][c] = cosine;
+    }
+  }
+
   const DisplacementOptions& options_;
-  const SphereLocator& locator_;
+  RowLocator locator_;
   NormalLines lines_;
-  Eigen::Matrix<double, Eigen::Dynamic, 2> around_;
+  FinderPool finders_;
+  std::vector<double> cosines_, sines_;  // of the columns
 };
 
 }  // namespace

@@ -43,43 +43,71 @@ SPHPARAM_INLINE auto see(const Vector (&a)[3], const Vector& normal) {
   return Seen<Number>{{w0, w1, w2}, sum, height};
 }
 
-/// Some lines, and of each the triangle of its known point.
-struct Few {
-  static constexpr size_t count = 8;
-  using Numbers = std::array<double, count>;
-  using Vectors = std::array<Numbers, 3>;
-  Vectors corners[3], origins, normals, barycentric;
-};
+/// Of some lines the triangles of their known points: corners, components.
+constexpr size_t few = 8;
+using Numbers = std::array<double, few>;
+using Corners = std::array<std::array<Numbers, 3>, 3>;
 
 struct FewSeen {
-  Few::Numbers least, sum, height;  // least of the weights
-  Few::Numbers known2;              // squared distance to the known point
+  Numbers height;
+  Numbers stays;  // 0 where the line leaves the surface there, no farther than the known point is
 };
 
-void see(const Few& few, FewSeen& seen) {
+template <int W>
+SPHPARAM_INLINE void see(const LaneVectors<W> (&corners)[3], const LineTable& lines,
+                         const PointTable& known, size_t at, FewSeen& seen, size_t i) {
+  const LaneVectors<W> origin = load<W>(lines.origins, at),
+                       a[3] = {corners[0] - origin, corners[1] - origin, corners[2] - origin},
+                       weights = load<W>(known.barycentric, at),
+                       to_known = weights.x * a[0] + weights.y * a[1] + weights.z * a[2];
+  const auto of = see(a, load<W>(lines.normals, at));
+  const Lanes<W> least = smaller(smaller(of.weights[0], of.weights[1]), of.weights[2]),
+                 height2 = of.height * of.height, known2 = dot(to_known, to_known);
+  // Choices of one comparison each: GCC 12 takes masks apart where they meet one another.
+  const Lanes<W> yes = 0.0, no = 1.0;
+  Lanes<W> stays = smaller(select(height2 < known2, yes, no), select(height2 == known2, yes, no));
+  stays = larger(stays, select(least < 0.0, no, yes));
+  stays = larger(stays, select(of.sum > 0.0, yes, no));
+  store(of.height, &seen.height[i]);
+  store(stays, &seen.stays[i]);
+}
+
+/// Lines whose known points lie on one triangle.
+void see_one(const Vector3 (&triangle)[3], const LineTable& lines, const PointTable& known,
+             size_t first, size_t count, FewSeen& seen) {
   run_on_lanes([&]<int W>(Width<W>) SPHPARAM_INLINED {
-    for (size_t i = 0; i < Few::count; i += W) {
-      const LaneVectors<W> origin = load<W>(few.origins, i);
-      const LaneVectors<W> a[3] = {load<W>(few.corners[0], i) - origin,
-                                   load<W>(few.corners[1], i) - origin,
-                                   load<W>(few.corners[2], i) - origin};
-      const LaneVectors<W> weights = load<W>(few.barycentric, i),
-                           known = weights.x * a[0] + weights.y * a[1] + weights.z * a[2];
-      const auto of = see(a, load<W>(few.normals, i));
-      store(smaller(smaller(of.weights[0], of.weights[1]), of.weights[2]), &seen.least[i]);
-      store(of.sum, &seen.sum[i]);
-      store(of.height, &seen.height[i]);
-      store(dot(known, known), &seen.known2[i]);
+    const LaneVectors<W> corners[3] = {all_lanes<W>(triangle[0]), all_lanes<W>(triangle[1]),
+                                       all_lanes<W>(triangle[2])};
+    for (size_t i = 0; i < count; i += W) see<W>(corners, lines, known, first + i, seen, i);
+  });
+}
+
+/// Lines of a triangle each.
+void see_each(const Corners& triangles, const LineTable& lines, const PointTable& known,
+              size_t first, size_t count, FewSeen& seen) {
+  run_on_lanes([&]<int W>(Width<W>) SPHPARAM_INLINED {
+    for (size_t i = 0; i < count; i += W) {
+      const LaneVectors<W> corners[3] = {load<W>(triangles[0], i), load<W>(triangles[1], i),
+                                         load<W>(triangles[2], i)};
+      see<W>(corners, lines, known, first + i, seen, i);
     }
   });
+}
+
+/// How many points from one on, few at most, are on the same face.
+size_t same_face(const PointTable& known, size_t first) {
+  const size_t most = std::min(first + few, known.count);
+  size_t last = first + 1;
+  while (last < most && known.faces[last] == known.faces[first]) ++last;
+  return last - first;
 }
 
 }  // namespace
 
 LineTable::LineTable(size_t count) {
   for (size_t k = 0; k < 3; ++k) {
-    origins[k].resize(count);
-    normals[k].resize(count);
+    origins[k].resize(count + padding);
+    normals[k].resize(count + padding);
   }
 }
 
@@ -160,40 +188,44 @@ NormalLines::Crossing NormalLines::find(const Vector3& origin, const Vector3& no
   return {approach(line, 0), LineHit::Near};
 }
 
-void NormalLines::find_all(const LineTable& lines, std::span<const SurfacePoint> known,
+void NormalLines::find_all(const LineTable& lines, const PointTable& known,
                            std::span<Crossing> crossings) const {
-  for (size_t first = 0; first < known.size(); first += Few::count) {
-    const size_t count = std::min(known.size() - first, Few::count);
-    find_few(lines, first, known.subspan(first, count), crossings.subspan(first, count));
+  for (size_t first = 0; first < known.count;) {
+    const size_t alike = same_face(known, first);
+    const size_t count = alike >= few / 2 ? alike : std::min(few, known.count - first);
+    find_few(lines, known, first, count, crossings);
+    first += count;
   }
 }
 
-void NormalLines::find_few(const LineTable& lines, size_t first,
-                           std::span<const SurfacePoint> known,
-                           std::span<Crossing> crossings) const {
-  Few few;
-  for (size_t i = 0; i < Few::count; ++i) {
-    const size_t from = std::min(i, known.size() - 1);  // the last one again where there are fewer
-    for (size_t k = 0; k < 3; ++k) {
-      const auto axis = static_cast<Eigen::Index>(k);
-      const Vertex corner = surface_.triangles(known[from].face, axis);
-      for (size_t c = 0; c < 3; ++c)
-        few.corners[k][c][i] = surface_.positions(corner, static_cast<Eigen::Index>(c));
-      few.barycentric[k][i] = known[from].barycentric[axis];
-      few.origins[k][i] = lines.origins[k][first + from];
-      few.normals[k][i] = lines.normals[k][first + from];
-    }
-  }
+/// All with known points on one face if these are half of the most, or more.
+void NormalLines::find_few(const LineTable& lines, const PointTable& known, size_t first,
+                           size_t count, std::span<Crossing> crossings) const {
+  const auto corner = [&](size_t i, int k) {
+    return surface_.position(surface_.triangles(known.faces[i], k));
+  };
   FewSeen seen;
-  see(few, seen);
-  for (size_t i = 0; i < known.size(); ++i) {
-    const double height = seen.height[i];
-    if (seen.least[i] >= 0 && seen.sum[i] > 0 && height * height <= seen.known2[i]) {
-      crossings[i] = {height, LineHit::Walk};
-    } else {
-      const auto one = [i](const Few::Vectors& x) { return Vector3(x[0][i], x[1][i], x[2][i]); };
-      crossings[i] = find(one(few.origins), one(few.normals), known[i]);
+  if (same_face(known, first) >= count) {
+    see_one({corner(first, 0), corner(first, 1), corner(first, 2)}, lines, known, first, count,
+            seen);
+  } else {
+    Corners corners;
+    for (size_t i = 0; i < few; ++i) {
+      const size_t from = first + std::min(i, count - 1);
+      for (size_t k = 0; k < 3; ++k) {
+        const Vector3 at = corner(from, static_cast<int>(k));
+        for (size_t c = 0; c < 3; ++c) corners[k][c][i] = at[static_cast<int>(c)];
+      }
     }
+    see_each(corners, lines, known, first, count, seen);
+  }
+  for (size_t i = 0; i < count; ++i) {
+    const size_t at = first + i;
+    const auto one = [at](const std::array<PaddedNumbers, 3>& x) {
+      return Vector3(x[0][at], x[1][at], x[2][at]);
+    };
+    crossings[at] = seen.stays[i] == 0 ? Crossing{seen.height[i], LineHit::Walk}
+                                       : find(one(lines.origins), one(lines.normals), known[at]);
   }
 }
 

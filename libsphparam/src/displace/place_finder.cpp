@@ -15,18 +15,18 @@ constexpr int most_steps = 24;  // of Newton, patches crossed included
 
 }  // namespace
 
-const DirectedPatch& PlaceFinder::patch(int index) {
-  if (last_patch_ && last_patch_->surface.index() == index) return *last_patch_;
+const DirectedPatch& PlaceFinder::make_patch(int index) {
   auto kept = kept_.find(index);
   if (kept == kept_.end()) {
-    last_patch_ = nullptr;
-    if (kept_.size() >= most_kept_) kept_.clear();
+    if (kept_.size() >= most_kept_) {
+      recent_.fill(nullptr);
+      kept_.clear();
+    }
     LimitPatch surface = base_.surface().patch(index);
     LimitPatch direction(surface, base_.directions().control());
     kept = kept_.try_emplace(index, std::move(surface), std::move(direction)).first;
   }
-  last_patch_ = &kept->second;
-  return *last_patch_;
+  return *(recent_[slot(index)] = &kept->second);
 }
 
 std::optional<LimitPlace> PlaceFinder::newton(const Vector3& q, LimitPlace place) {
@@ -78,6 +78,24 @@ PlaceFinder::Found PlaceFinder::found(const Vector3& direction,
                                       const std::optional<LimitPlace>& place) const {
   if (place) return {*place, true};
   return {clamped(base_.guess(direction), base_.net().degree()), false};
+}
+
+FinderPool::Lent FinderPool::lend() const {
+  const std::lock_guard lock(mutex_);
+  std::unique_ptr<PlaceFinder> finder;
+  if (idle_.empty()) {
+    idle_.reserve(++made_);  // so that they come back whatever memory there is
+    finder = std::make_unique<PlaceFinder>(base_);
+  } else {
+    finder = std::move(idle_.back());
+    idle_.pop_back();
+  }
+  return {*this, std::move(finder)};
+}
+
+FinderPool::Lent::~Lent() {
+  const std::lock_guard lock(pool_.mutex_);
+  pool_.idle_.push_back(std::move(finder_));
 }
 
 }  // namespace sphparam

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <array>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "displace/directed_base.h"
 
@@ -35,7 +39,10 @@ class PlaceFinder {
   Found find(const Vector3& direction, const LimitPlace& near);
 
   /// Until the next call.
-  const DirectedPatch& patch(int index);
+  const DirectedPatch& patch(int index) {
+    const DirectedPatch* recent = recent_[slot(index)];
+    return recent && recent->surface.index() == index ? *recent : make_patch(index);
+  }
   const DirectedBase& base() const { return base_; }
 
   static constexpr double longest_step = 0.75;   // in parameters: beyond, a patch says nothing
@@ -45,6 +52,9 @@ class PlaceFinder {
   static constexpr double last_step(bool of_polynomial) { return of_polynomial ? 1e-4 : 5e-6; }
 
  private:
+  static constexpr size_t recent_count = 1 << 10;
+  static size_t slot(int index) { return static_cast<size_t>(index) % recent_count; }
+  const DirectedPatch& make_patch(int index);
   std::optional<LimitPlace> newton(const Vector3& direction, LimitPlace place);
   std::optional<LimitPlace> newton_anew(const Vector3& direction) {
     return newton(direction, base_.guess(direction));
@@ -54,8 +64,38 @@ class PlaceFinder {
   const DirectedBase& base_;
   size_t most_kept_;
   std::unordered_map<int, DirectedPatch> kept_;
-  const DirectedPatch* last_patch_ = nullptr;
+  std::array<const DirectedPatch*, recent_count> recent_{};  // each where its number says
   std::optional<LimitPlace> last_, before_last_;
+};
+
+/// Finders of a base, with the patches that they made: lent to whoever works on some rows.
+class FinderPool {
+ public:
+  explicit FinderPool(const DirectedBase& base) : base_(base) {}
+
+  /// A finder, until this ends.
+  class Lent {
+   public:
+    Lent(const FinderPool& pool, std::unique_ptr<PlaceFinder> finder)
+        : pool_(pool), finder_(std::move(finder)) {}
+    ~Lent();
+    Lent(const Lent&) = delete;
+    Lent& operator=(const Lent&) = delete;
+    PlaceFinder& operator*() const { return *finder_; }
+
+   private:
+    const FinderPool& pool_;
+    std::unique_ptr<PlaceFinder> finder_;
+  };
+  /// One that nobody has; what it was asked before leaves no trace in what it finds. May be called
+  /// from many threads.
+  Lent lend() const;
+
+ private:
+  const DirectedBase& base_;
+  mutable std::mutex mutex_;
+  mutable size_t made_ = 0;
+  mutable std::vector<std::unique_ptr<PlaceFinder>> idle_;
 };
 
 }  // namespace sphparam

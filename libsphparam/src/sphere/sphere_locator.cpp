@@ -9,6 +9,7 @@
 #include <string>
 
 #include "sphere/cube_places.h"
+#include "sphere/usable_direction.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/orientation.h"
 
@@ -39,9 +40,7 @@ constexpr int straight_steps = 64;   // before the walk chooses its edges by cha
 constexpr int most_steps = 1 << 16;  // before all faces are asked
 
 // Of rounding.
-constexpr double most_length = 4;          // |q|₁ of a usable direction
 constexpr double least_rounding = 1e-290;  // of tiny rays: their products may underflow
-constexpr double coarse_triangle = 1e-5;   // sum of dets, above which dot products are weights
 
 // Of many directions.
 constexpr std::int64_t grain = 4096;   // faces, or directions
@@ -52,18 +51,6 @@ constexpr double near_triangles = 2;   // between most directions that are not w
 constexpr std::int64_t least_sorted = 1 << 17, most_sorted = 1 << 20;  // together
 constexpr std::int64_t ahead = 12;  // directions between asking for memory and using it
 constexpr std::int32_t cells_ahead = 24;
-
-/// The direction, scaled by a power of two unless ½ ≤ |q| ≤ 2: nothing over- or underflows, and
-/// |q|₁ ≤ most_length.
-inline Vector3 usable(const Vector3& q) {
-  const double square = q.squaredNorm();
-  if (square >= 0.25 && square <= 4) return q;
-  const double length = q.cwiseAbs().maxCoeff();
-  if (!q.allFinite() || length == 0) {
-    throw std::invalid_argument("SphereLocator: a direction is zero or not finite");
-  }
-  return q.unaryExpr([&](double x) { return std::ldexp(x, -1 - std::ilogb(length)); });
-}
 
 /// Rows first … last along the curve of the cube's squares, relative to the first: two rounds of
 /// counting, by the lower and the upper half of a short key.
@@ -222,7 +209,7 @@ int SphereLocator::sign(const Cell& cell, int edge, double det, const Vector3& q
   return orientation(map_->point(topology_->origin(h)), map_->point(topology_->target(h)), q);
 }
 
-inline SphereLocator::Found SphereLocator::walk(const Vector3& q, std::int32_t at) const {
+SphereLocator::Found SphereLocator::walk(const Vector3& q, std::int32_t at) const {
   for (int step = 0; step < straight_steps; ++step) {
     const Cell& cell = cells_[static_cast<size_t>(at)];
     const std::array<double, 3> d = dets(cell, q);
@@ -290,7 +277,7 @@ Vector3 SphereLocator::small_weights(const Vector3& q, Face face) const {
   return weights;
 }
 
-inline SurfacePoint SphereLocator::finish(const Vector3& q, const Found& found) const {
+SurfacePoint SphereLocator::finish(const Vector3& q, const Found& found) const {
   if (found.touches) return finish_at_edge(q, found);
   SurfacePoint point{cells_[static_cast<size_t>(found.cell)].face,
                      {found.dets[0], found.dets[1], found.dets[2]}};

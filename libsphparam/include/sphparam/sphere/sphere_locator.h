@@ -48,6 +48,8 @@ class SphereLocator {
   void locate_all(PointsView directions, std::span<SurfacePoint> points, int threads = 0) const;
 
  private:
+  friend class RowLocator;  // along rows of images
+
   /// What a walk reads of one face, in one place. Cells are in the order of a space-filling curve.
   struct Cell {
     std::array<double, 3> x, y, z;       // k: xᵢ × xⱼ of the edge (i, j) opposite to corner k

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "lanes.h"
+#include "remesh/subdivision/limit_polynomial.h"
 #include "remesh/subdivision/limit_tables.h"
 #include "sphparam/remesh/limit_surface.h"
 
@@ -69,34 +70,6 @@ ToCoefficients to_coefficients(const BfrSurface& surface, Scheme scheme) {
   return values.partialPivLu().solve(weights);
 }
 
-/// A polynomial of one component, and its derivatives.
-template <class Number>
-struct Value {
-  Number value = 0.0, by_s = 0.0, by_t = 0.0;
-};
-
-/// Of coefficients a row apart; `Number` is one number or several lanes of them.
-template <Scheme scheme, class Number>
-SPHPARAM_INLINE Value<Number> evaluate_polynomial(const double* c, const Number& s,
-                                                  const Number& t) {
-  constexpr int rows = scheme == Scheme::Loop ? 5 : 4, apart = 3;
-  Value<Number> p;
-  int end = scheme == Scheme::Loop ? 15 : 16;
-  for (int i = rows - 1; i >= 0; --i) {
-    const int length = scheme == Scheme::Loop ? rows - i : rows;  // monomials sⁱ tʲ
-    Number of_row = c[apart * (end - 1)], of_row_by_t = 0.0;
-    for (int j = length - 2; j >= 0; --j) {
-      of_row_by_t = of_row_by_t * t + of_row;
-      of_row = of_row * t + Number(c[apart * (end - length + j)]);
-    }
-    p.by_s = p.by_s * s + p.value;
-    p.value = p.value * s + of_row;
-    p.by_t = p.by_t * s + of_row_by_t;
-    end -= length;
-  }
-  return p;
-}
-
 template <Scheme scheme>
 LimitPoint point_of_polynomial(const LimitPatch::Coefficients& c, double s, double t) {
   LimitPoint point;
@@ -111,14 +84,11 @@ template <Scheme scheme>
 void points_of_polynomial(const LimitPatch::Coefficients& c, const LimitPoints::Numbers& s,
                           const LimitPoints::Numbers& t, LimitPoints& points) {
   run_on_lanes([&]<int W>(Width<W>) SPHPARAM_INLINED {
-    const double* of_x = &c(0, 0);
     for (size_t i = 0; i < LimitPoints::count; i += W) {
-      for (size_t k = 0; k < 3; ++k) {
-        const auto of = evaluate_polynomial<scheme>(of_x + k, load<W>(&s[i]), load<W>(&t[i]));
-        store(of.value, &points.position[k][i]);
-        store(of.by_s, &points.by_s[k][i]);
-        store(of.by_t, &points.by_t[k][i]);
-      }
+      const auto of = evaluate_polynomials<scheme>(c, load<W>(&s[i]), load<W>(&t[i]));
+      store(of.position, points.position, i);
+      store(of.by_s, points.by_s, i);
+      store(of.by_t, points.by_t, i);
     }
   });
 }
