@@ -410,7 +410,10 @@ TEST_CASE("map: what a file carries and no output does is told unasked, in bake 
                              Contains("1 unknown statement, the first 'quux'"));
   CHECK(sphparam_program({"map", mesh, "-o", map, "-q"}).err.empty());
   CHECK_THAT(sphparam_program({"map", map, "-o", folder / "again.sph.ply"}).err,
-             !Contains("not carried"));
+             !Contains("not carried") &&
+                 Contains("ball.sph.ply: carries a map, which is left: it gets another one; all "
+                          "subcommands but this take the one that it carries\n"));
+  CHECK_THAT(mapped.err, !Contains("carries a map"));
   CHECK_THAT(sphparam_program({"info", mesh}).out, Contains("not carried: colours and textures"));
   CHECK_THAT(
       sphparam_program({"bake", mesh, "--map", "area", "--size", "64", "-o", folder / "a.exr"}).err,

@@ -164,8 +164,20 @@ void measure(const TriangleMesh& surface, const MapArguments& arguments, MapOutc
   }
 }
 
+/// A map that the file has is not what is written.
+void tell_map_left(const MeshSource& source, Session& session) {
+  const auto has = [&](const char* ray) {
+    return source.file.find_vertex_property(ray) != nullptr;
+  };
+  if (has("sx") && has("sy") && has("sz"))
+    session.console.say(display_name(source.path) +
+                        ": carries a map, which is left: it gets another one; all subcommands but "
+                        "this take the one that it carries");
+}
+
 MapOutcome compute(MeshSource source, const MapArguments& arguments, Session& session) {
   require_mappable(source);
+  tell_map_left(source, session);
   require_area(source);
   const std::optional<MappedMesh> other = read_other(arguments, session);
   InputNames input = input_names(source.file);
