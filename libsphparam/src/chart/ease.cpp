@@ -26,6 +26,13 @@ constexpr std::array<SheetPoint, 8> directions = {{{1, 0},
                                                    {diagonal, -diagonal},
                                                    {-diagonal, diagonal}}};
 
+double cost_of(double height) {
+  if (height >= Easing::wanted) return 0;
+  if (height < least) return folded_cost * (1 - height);
+  const double lack = Easing::wanted / height - 1;
+  return lack * lack;
+}
+
 }  // namespace
 
 void Easing::add(Vertex v) {
@@ -52,28 +59,41 @@ void Easing::run(std::int64_t most) {
 }
 
 void Easing::slide(Vertex v, const SheetPoint& direction) {
+  take_ring(v);
   const SheetPoint start = sheet_.place(v);
   double lowest = HUGE_VAL;
   for (double step = longest_slide; step > least; step /= 2)
     try_place(v, {start.x + step * direction.x, start.y + step * direction.y}, lowest);
 }
 
-double Easing::cost(Face f) const {
-  const double height = sheet_.height(f);
-  if (height >= wanted) return 0;
-  if (height < least) return folded_cost * (1 - height);
-  const double lack = wanted / height - 1;
-  return lack * lack;
+double Easing::RingFace::cost_with(const SheetPoint& p) {
+  face.corners[corner] = {p.x, p.y + turn};
+  return cost_of(face.height());
 }
 
-double Easing::cost_around(Vertex v) const {
+void Easing::take_ring(Vertex v) {
+  ring_.clear();
+  dear_ = 0;
+  sheet_.for_each_spoke(v, [&](Halfedge h) {
+    ring_.push_back({sheet_.face(Topology::face(h)), static_cast<size_t>(Topology::corner(h)),
+                     sheet_.corner(h).y - sheet_.place(v).y});
+  });
+}
+
+double Easing::cost_at(const SheetPoint& p, double most) {
+  if (const double cost = ring_[dear_].cost_with(p); cost >= most) return cost;
   double sum = 0;
-  sheet_.for_each_spoke(v, [&](Halfedge h) { sum += cost(Topology::face(h)); });
+  for (size_t i = 0; i < ring_.size() && !(sum >= most); ++i) {
+    const double cost = ring_[i].cost_with(p);
+    if (cost >= most) dear_ = i;
+    sum += cost;
+  }
   return sum;
 }
 
 bool Easing::ease(Vertex v) {
-  const double before = cost_around(v);
+  take_ring(v);
+  const double before = cost_at(sheet_.place(v), HUGE_VAL);
   if (before == 0) return false;
   double lowest = before;
   int helped = 0;
@@ -95,18 +115,14 @@ double Easing::longest_spoke(Vertex v) const {
   return std::sqrt(longest);
 }
 
-/// Leaves v there if that costs less.
+/// Leaves v, whose ring is at hand, there if that costs less.
 bool Easing::try_place(Vertex v, const SheetPoint& p, double& lowest) {
   if (!sheet_.allows(v, p)) return false;
-  const SheetPoint before = sheet_.place(v);
+  const double there = cost_at(p, lowest);
+  if (!(there < lowest)) return false;
+  lowest = there;
   sheet_.move(v, p);
-  const double there = cost_around(v);
-  if (there < lowest) {
-    lowest = there;
-    return true;
-  }
-  sheet_.move(v, before);
-  return false;
+  return true;
 }
 
 }  // namespace sphparam

@@ -27,8 +27,18 @@ class Easing {
   void slide(Vertex v, const SheetPoint& direction);
 
  private:
-  double cost(Face f) const;
-  double cost_around(Vertex v) const;
+  /// A face around the vertex at hand, which is a corner of it; in the west y is a turn more.
+  struct RingFace {
+    SheetFace face;
+    size_t corner;
+    double turn;
+
+    double cost_with(const SheetPoint& p);
+  };
+
+  void take_ring(Vertex v);
+  /// Of the ring, with its vertex at p; at least `most` where it is not less than that.
+  double cost_at(const SheetPoint& p, double most);
   bool ease(Vertex v);
   double longest_spoke(Vertex v) const;
   bool try_place(Vertex v, const SheetPoint& p, double& lowest);
@@ -36,6 +46,8 @@ class Easing {
   Sheet& sheet_;
   std::deque<Vertex> waiting_;
   std::vector<char> is_waiting_;
+  std::vector<RingFace> ring_;  // of the vertex at hand
+  size_t dear_ = 0;             // the face of it that was too dear last: most likely is again
 };
 
 }  // namespace sphparam

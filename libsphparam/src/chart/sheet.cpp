@@ -16,7 +16,47 @@ namespace {
 
 constexpr int most_spokes = 512;
 
+/// A face at ±z, seen from there: the corners of its link edge.
+struct Trapezoid {
+  explicit Trapezoid(const SheetFace& face)
+      : next(static_cast<size_t>(face.pole + 1) % 3),
+        previous(static_cast<size_t>(face.pole + 2) % 3),
+        north(face.north),
+        begin(face.corners[next]),
+        end(face.corners[previous]) {}
+
+  double depth(const SheetPoint& p) const { return north ? p.x : Sheet::cells - p.x; }
+  double width() const { return north ? end.y - begin.y : begin.y - end.y; }
+
+  size_t next, previous;
+  bool north;
+  SheetPoint begin, end;
+};
+
+std::array<SheetPoint, 3> trapezoid_gradient(const SheetFace& face) {
+  std::array<SheetPoint, 3> gradient = {SheetPoint{0, 0}, SheetPoint{0, 0}, SheetPoint{0, 0}};
+  const Trapezoid it(face);
+  const double sign = it.north ? 1 : -1, begin = it.depth(it.begin), end = it.depth(it.end);
+  if (it.width() <= std::min(begin, end)) {
+    gradient[it.next].y = -sign;
+    gradient[it.previous].y = sign;
+  } else {
+    gradient[begin < end ? it.next : it.previous].x = sign;
+  }
+  return gradient;
+}
+
 }  // namespace
+
+double SheetFace::height() const {
+  if (pole >= 0) {
+    const Trapezoid it(*this);
+    return std::min({it.width(), it.depth(it.begin), it.depth(it.end)});
+  }
+  const auto& [a, b, c] = corners;
+  const double longest = std::max({square(b - a), square(c - b), square(a - c)});
+  return longest > 0 ? cross(b - a, c - a) / std::sqrt(longest) : 0;
+}
 
 Sheet::Sheet(const SphericalChart& chart, int threads)
     : HalfedgeLinks(static_cast<int>(chart.triangles.size())),
@@ -74,49 +114,18 @@ int Sheet::pole_corner(Face f) const {
   return -1;
 }
 
-double Sheet::depth(Halfedge pole, Halfedge h) const {
-  return origin(pole) == north_ ? corner(h).x : cells - corner(h).x;
-}
-
-double Sheet::width(Halfedge pole) const {
-  const double run = corner(Topology::previous(pole)).y - corner(Topology::next(pole)).y;
-  return origin(pole) == north_ ? run : -run;
-}
-
-double Sheet::height(Face f) const {
-  const int k = pole_corner(f);
-  if (k >= 0) {
-    const Halfedge pole = 3 * f + k;
-    return std::min(
-        {width(pole), depth(pole, Topology::next(pole)), depth(pole, Topology::previous(pole))});
-  }
-  const SheetPoint a = corner(3 * f), b = corner(3 * f + 1), c = corner(3 * f + 2);
-  const double longest = std::max({square(b - a), square(c - b), square(a - c)});
-  return longest > 0 ? cross(b - a, c - a) / std::sqrt(longest) : 0;
-}
-
-std::array<SheetPoint, 3> Sheet::trapezoid_gradient(Halfedge pole) const {
-  std::array<SheetPoint, 3> gradient = {SheetPoint{0, 0}, SheetPoint{0, 0}, SheetPoint{0, 0}};
-  const double sign = origin(pole) == north_ ? 1 : -1;
-  const Halfedge begin = Topology::next(pole), end = Topology::previous(pole);
-  const auto at = [&](Halfedge h) -> SheetPoint& {
-    return gradient[static_cast<size_t>(Topology::corner(h))];
-  };
-  if (width(pole) <= std::min(depth(pole, begin), depth(pole, end))) {
-    at(begin).y = -sign;
-    at(end).y = sign;
-  } else {
-    at(depth(pole, begin) < depth(pole, end) ? begin : end).x = sign;
-  }
-  return gradient;
+SheetFace Sheet::face(Face f) const {
+  SheetFace face{.corners = {}, .pole = pole_corner(f)};
+  face.north = face.pole >= 0 && origin(3 * f + face.pole) == north_;
+  for (int k = 0; k < 3; ++k) face.corners[static_cast<size_t>(k)] = corner(3 * f + k);
+  return face;
 }
 
 std::array<SheetPoint, 3> Sheet::height_gradient(Face f) const {
-  const int pole = pole_corner(f);
-  if (pole >= 0) return trapezoid_gradient(3 * f + pole);
+  const SheetFace face = this->face(f);
+  if (face.pole >= 0) return trapezoid_gradient(face);
   std::array<SheetPoint, 3> edges;  // opposite to each corner
-  for (int k = 0; k < 3; ++k)
-    edges[static_cast<size_t>(k)] = corner(3 * f + (k + 2) % 3) - corner(3 * f + (k + 1) % 3);
+  for (size_t k = 0; k < 3; ++k) edges[k] = face.corners[(k + 2) % 3] - face.corners[(k + 1) % 3];
   size_t longest = 0;
   for (size_t k = 1; k < 3; ++k) {
     if (square(edges[k]) > square(edges[longest])) longest = k;

@@ -20,6 +20,16 @@ inline SheetPoint operator-(const SheetPoint& a, const SheetPoint& b) {
 inline double cross(const SheetPoint& a, const SheetPoint& b) { return a.x * b.y - a.y * b.x; }
 inline double square(const SheetPoint& a) { return a.x * a.x + a.y * a.y; }
 
+/// Where a face sees its corners. One that is a pole has no place: the face is a trapezoid.
+struct SheetFace {
+  std::array<SheetPoint, 3> corners;
+  int pole = -1;  // which corner is at ±z; −1: none
+  bool north = false;
+
+  /// The least altitude; of a trapezoid, its width or a side. Not above 0: folded.
+  double height() const;
+};
+
 /// The pieces of a chart as a triangulation whose vertices move in the plane, and are taken out one
 /// by one and put back in the opposite order.
 ///
@@ -61,8 +71,9 @@ class Sheet : public HalfedgeLinks {
   /// From the origin of h to its end, as its face sees both; to a pole, the direction.
   SheetPoint towards(Halfedge h) const;
 
-  /// The least altitude of a face; of a trapezoid, its width or a side. Not above 0: folded.
-  double height(Face f) const;
+  SheetFace face(Face f) const;
+  /// As SheetFace has it.
+  double height(Face f) const { return face(f).height(); }
   /// What the height changes by with the places of the corners.
   std::array<SheetPoint, 3> height_gradient(Face f) const;
   /// Is a face positive? Exact.
@@ -86,9 +97,6 @@ class Sheet : public HalfedgeLinks {
 
   char& west(Halfedge h) { return in_west_[static_cast<size_t>(Topology::face(h))]; }
   int pole_corner(Face f) const;
-  double depth(Halfedge pole, Halfedge h) const;  // of a trapezoid, at the origin of h
-  double width(Halfedge pole) const;
-  std::array<SheetPoint, 3> trapezoid_gradient(Halfedge pole) const;
   void mark_neighbours(Vertex v);
   bool has_two_common_neighbours(Halfedge h);
   bool seam_allows(Halfedge h);
