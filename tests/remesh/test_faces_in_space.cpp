@@ -121,6 +121,18 @@ TEST_CASE(
   CHECK(nothing.empty());
 }
 
+TEST_CASE("faces in space: smaller triangles are no advice for a rod") {
+  const auto advice_for = [](double length) {
+    TriangleMesh rod = bracket();
+    rod.positions.col(2) *= length;
+    const MappedMesh source = mapped(rod);
+    const Remeshed made = remesh(source, make_grid(parse_grid("ico:3")));
+    return warning_of(faces_in_space(source, made), source, made);
+  };
+  CHECK_THAT(advice_for(200), Contains("on a finer grid, or with a smaller --lambda"));
+  CHECK_THAT(advice_for(1), Contains("map the mesh with --max-edge "));
+}
+
 TEST_CASE("faces in space: an adapted map folds next to nothing of a part with flat sides") {
   const MappedMesh cut = mapped(in_four(in_four(in_four(in_four(bracket())))));
   const auto share_of = [&](const MappedMesh& source) {

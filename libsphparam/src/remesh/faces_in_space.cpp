@@ -139,18 +139,31 @@ double longest_edge(const TriangleMesh& mesh) {
   return longest;
 }
 
+double area_of(const TriangleMesh& mesh) {
+  double area = 0;
+  for (Face f = 0; f < mesh.face_count(); ++f) area += area_of(mesh, f);
+  return area;
+}
+
 /// Twice the side of a triangle of the grid, if all were alike on the surface.
 double fine_enough(const TriangleMesh& surface, const TriangleMesh& grid) {
-  double area = 0;
-  for (Face f = 0; f < surface.face_count(); ++f) area += area_of(surface, f);
-  return 2 * std::sqrt(4 / std::sqrt(3.0) * area / static_cast<double>(grid.face_count()));
+  const double area = area_of(surface) / static_cast<double>(grid.face_count());
+  return 2 * std::sqrt(4 / std::sqrt(3.0) * area);
+}
+
+/// Some thirty times longer than wide, if it is a rod: a map of one bends all along it, more where
+/// its triangles are smaller.
+bool is_long(const TriangleMesh& surface) {
+  constexpr double long_squared = 10;  // of an area
+  const double length = longest_side(surface);
+  return length * length > long_squared * area_of(surface);
 }
 
 std::string what_helps(const FacesInSpace& found, const MappedMesh& source,
                        const MappedMesh& made) {
   if (is_adapted(source)) return "leave out --adaptive, under which what is flat has few vertices";
   const double enough = fine_enough(source.mesh(), made.mesh());
-  return longest_edge(source.mesh()) > 1.1 * enough
+  return longest_edge(source.mesh()) > 1.1 * enough && !is_long(source.mesh())
              ? "a map bends at the sides of large triangles: map the mesh with --max-edge " +
                    short_number(enough, 2)
              : "on a finer grid, or with a smaller --lambda of the map, they are a smaller share "
