@@ -386,6 +386,10 @@ TEST_CASE("usage: where a format cannot keep a map, what is said to write it doe
                                 !Contains("--write-sphere"));
   CHECK_THAT(told("y.obj"), Contains("--write-sphere FILE writes the sphere alone as .obj"));
   CHECK_THAT(told("y.glb"), Contains("`sphparam export` of the map writes .glb"));
+  const Ended repair = sphparam_program({"repair", "x.obj", "-o", "y.usdz"});
+  CHECK(repair.code == 2);
+  CHECK_THAT(repair.err,
+             Contains("not as y.usdz: `sphparam export` writes that, of a mapped mesh"));
 }
 
 }  // namespace sphparam::tests

@@ -10,6 +10,15 @@
 #include "sphparam/io/paths.h"
 
 namespace sphparam::cli {
+namespace {
+
+std::string writer_of(const std::string& path) {
+  constexpr std::array<std::string_view, 4> of_export = {".glb", ".gltf", ".usda", ".usdz"};
+  if (std::ranges::count(of_export, extension_of(path)) == 0) return "";
+  return ": `sphparam export` writes that, of a mapped mesh";
+}
+
+}  // namespace
 
 void require_mesh_name(const std::string& option, const std::string& what, const std::string& path,
                        const Words& more) {
@@ -18,7 +27,7 @@ void require_mesh_name(const std::string& option, const std::string& what, const
   if (!inner_extension_of(path).empty() && is_written(path)) return;
   const std::string others = more.empty() ? "" : joined(more) + ", ";
   throw UsageMistake(option + ": " + what + " is written as " + others + written_extensions() +
-                     ", .gz after it for gzip, not as " + output_name(path));
+                     ", .gz after it for gzip, not as " + output_name(path) + writer_of(path));
 }
 
 char table_separator(const std::string& option, const std::string& path) {

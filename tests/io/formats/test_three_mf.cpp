@@ -71,7 +71,8 @@ TEST_CASE("three_mf: an object comes as it stands, stored, deflated or with fiel
     CHECK(file.mesh.triangles == faces);
     CHECK(file.face_properties.empty());
     CHECK(file.comments == std::vector<std::string>{"unit inch"});
-    CHECK(file.notes.empty());
+    CHECK(file.notes == std::vector<std::string>{
+                            "its unit is the inch, not the millimetre: lengths stay as they are"});
   }
 }
 
@@ -143,7 +144,7 @@ TEST_CASE("three_mf: colours are those of vertices where no vertex has two, else
   CHECK(values_of(plain.find_vertex_property("red")) == std::vector<double>(4, 0x10));
   CHECK(values_of(plain.find_vertex_property("blue")) == std::vector<double>(4, 0x30));
   CHECK(!plain.find_vertex_property("alpha"));
-  CHECK(plain.notes.empty());
+  CHECK(plain.notes.size() == 1);  // the unit
   const MeshFile mixed = painted(" p1=\"1\" p2=\"1\" p3=\"0\"");
   CHECK(!mixed.find_vertex_property("red"));
   CHECK(values_of(mixed.find_face_property("red")) ==

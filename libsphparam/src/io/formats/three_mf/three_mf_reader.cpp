@@ -126,6 +126,9 @@ class ThreeMfReader {
     for (const auto& [key, value] : model.metadata)
       if (!value.empty()) file_.comments.push_back(key + " " + one_line(value));
     file_.comments.push_back("unit " + one_line(model.unit));
+    if (model.unit != "millimeter")
+      file_.notes.push_back("its unit is the " + one_line(model.unit) +
+                            ", not the millimetre: lengths stay as they are");
     for (std::size_t i = 0; item_ > 1 && i < names_.size(); ++i)
       if (!names_[i].empty())
         file_.comments.push_back("object " + std::to_string(i) + " " + names_[i]);
