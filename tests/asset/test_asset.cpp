@@ -153,6 +153,21 @@ TEST_CASE("remake asset: what is done last is judged first") {
   CHECK_FALSE(complaint({.samples = 0}).empty());
 }
 
+TEST_CASE("remake asset: the chart is made once, for all stages") {
+  RemakeOptions options{.whole = coarse(), .width = 32};
+  options.page = false;
+  int charts = 0;
+  std::string before;
+  options.whole.progress = [&](std::string_view stage, double) {
+    charts += stage == "chart" && before != "chart" ? 1 : 0;
+    before = stage;
+    return true;
+  };
+  PendingFiles files;
+  CHECK(remake_asset(source_of(icosphere(2)), "", options, files).whole.mapped.chart() != nullptr);
+  CHECK(charts == 1);
+}
+
 TEST_CASE("whole surface: a repair that keeps too little is not taken") {
   WholeOptions options = coarse();
   options.least_kept = 0.4;  // one of two balls is half

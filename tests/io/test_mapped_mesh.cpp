@@ -9,6 +9,7 @@
 #include "sphparam/errors.h"
 #include "sphparam/io/certified_files.h"
 #include "sphparam/io/fillers.h"
+#include "sphparam/chart/spherical_chart.h"
 #include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/safe_file.h"
@@ -255,6 +256,22 @@ TEST_CASE("mapped_mesh: with another map the mesh is the same one") {
   CHECK(&other.locator() != &mapped.locator());
   CHECK(mapped.map().points == identity().points);
   CHECK_THROWS_AS(mapped.with_map(folded(), {}), NotCertifiedError);
+}
+
+TEST_CASE("mapped_mesh: a chart at hand is shared, and is that of the map") {
+  const MappedMesh bare = egg();
+  CHECK(bare.chart() == nullptr);
+  const MappedMesh charted = bare.with_chart();
+  REQUIRE(charted.chart() != nullptr);
+  const SphericalChart made = spherical_chart(bare.mesh(), bare.topology(), bare.map());
+  CHECK(charted.chart()->uv == made.uv);
+  CHECK(chart_of(charted).uv == made.uv);
+  CHECK(chart_of(bare).uv == made.uv);
+  CHECK(MappedMesh(charted).chart() == charted.chart());
+  SphereMap turned = identity();
+  turned.points.col(0).swap(turned.points.col(1));
+  turned.points.col(0) *= -1;
+  CHECK(charted.with_map(turned, {}).chart() == nullptr);
 }
 
 TEST_CASE("mapped_mesh: it outlives what it was made of") {

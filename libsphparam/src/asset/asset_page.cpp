@@ -120,7 +120,7 @@ class AssetPage {
   /// Drawn as the .glb is, with its texture coordinates and its base colour.
   std::string picture_after() const {
     ExportChart chart = export_chart(mapped().mesh(), mapped().topology(), mapped().map(),
-                                     {.threads = shown_.threads});
+                                     {.threads = shown_.threads, .made = mapped().chart()});
     const MeshFile mesh =
         textured_mesh(chart, mapped().file(), ShapeKind::Mesh, up(), shown_.threads);
     DrawingOptions options = drawing();

@@ -82,7 +82,8 @@ WholeSurface with_nearest_numbers(WholeSurface whole, const MeshSource& asset, i
                              .notes = bare.notes(),
                              .mapped_here = bare.mapped_here(),
                              .name = bare.name()},
-                            threads);
+                            threads)
+                     .with_chart(threads);
   return whole;
 }
 

@@ -104,23 +104,21 @@ class Chooser {
       LoadOptions upright = load;
       upright.map = with_upright_frame(load.map, source.file.mesh, *source.topology,
                                        upright_axes(source.file));
-      MappedMesh mapped = told_upright(mapped_mesh(source, upright));
-      if (has_chart(mapped)) return mapped;
+      if (auto mapped = with_chart(told_upright(mapped_mesh(source, upright)))) return mapped;
       details_.emplace_back("top and bottom are not at the poles: the map would be too thin there");
     }
     MappedMesh mapped = mapped_mesh(std::move(source), load);
-    if (has_chart(mapped)) {
-      if (options_.upright) return told_upright(mapped);
-      return mapped;
-    }
+    if (options_.upright) mapped = told_upright(mapped);
+    if (auto charted = with_chart(mapped)) return charted;
     found_.emplace_back("its map is thinner in (u, v) than doubles can tell");
     return std::nullopt;
   }
 
-  bool has_chart(const MappedMesh& mapped) const {
-    return spherical_chart(mapped.mesh(), mapped.topology(), mapped.map(), options_.threads,
-                           options_.progress)
-        .certificate.one_to_one();
+  /// All stages that follow want the chart, which may take longer than the map.
+  std::optional<MappedMesh> with_chart(const MappedMesh& mapped) const {
+    MappedMesh charted = mapped.with_chart(options_.threads, options_.progress);
+    if (charted.chart()->certificate.one_to_one()) return charted;
+    return std::nullopt;
   }
 
   /// Says among the lines on the map that it stands as the mesh does, where it does.

@@ -11,12 +11,12 @@
 
 namespace sphparam {
 
-BakeTarget make_target(const MeshFile& file, const Topology& topology, const SphereMap& map,
-                       bool is_source, int threads, int pole_wedges, const Progress& progress) {
-  BakeTarget target{.chart = spherical_chart(file.mesh, topology, map, threads, progress),
-                    .positions = {},
-                    .normals = {},
-                    .is_source = is_source};
+namespace {
+
+BakeTarget target_on(SphericalChart chart, const MeshFile& file, bool is_source, int threads,
+                     int pole_wedges) {
+  BakeTarget target{
+      .chart = std::move(chart), .positions = {}, .normals = {}, .is_source = is_source};
   const Triangles& triangles = file.mesh.triangles;
   if (pole_wedges > 1 && target.chart.certificate.one_to_one())
     target.chart = refine_poles(std::move(target.chart), triangles, pole_wedges, threads);
@@ -29,10 +29,18 @@ BakeTarget make_target(const MeshFile& file, const Topology& topology, const Sph
   return target;
 }
 
+}  // namespace
+
+BakeTarget make_target(const MeshFile& file, const Topology& topology, const SphereMap& map,
+                       bool is_source, int threads, int pole_wedges, const Progress& progress) {
+  return target_on(spherical_chart(file.mesh, topology, map, threads, progress), file, is_source,
+                   threads, pole_wedges);
+}
+
 BakeTarget make_target(const MappedMesh& mapped, bool is_source, int threads, int pole_wedges,
                        const Progress& progress) {
-  return make_target(mapped.file(), mapped.topology(), mapped.map(), is_source, threads,
-                     pole_wedges, progress);
+  return target_on(chart_of(mapped, threads, progress), mapped.file(), is_source, threads,
+                   pole_wedges);
 }
 
 std::string unit_of_lengths(const FieldOptions& options) {

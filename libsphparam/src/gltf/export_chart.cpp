@@ -43,9 +43,12 @@ ExportChart export_chart(const TriangleMesh& mesh, const Topology& topology, con
       quarters > 0 ? std::optional(turned(map, quarters)) : std::nullopt;
   const SphereMap& aligned = copy ? *copy : map;
   ExportChart result;
-  result.chart = options.keep_topology
-                     ? wrapped_chart(mesh, topology, aligned, options.threads)
-                     : spherical_chart(mesh, topology, aligned, options.threads, options.progress);
+  if (options.keep_topology)
+    result.chart = wrapped_chart(mesh, topology, aligned, options.threads);
+  else if (options.made && !copy)
+    result.chart = *options.made;
+  else
+    result.chart = spherical_chart(mesh, topology, aligned, options.threads, options.progress);
   if (options.refine_poles > 1 && result.chart.certificate.one_to_one()) {
     result.chart = refine_poles(std::move(result.chart), mesh.triangles, options.refine_poles,
                                 options.threads);

@@ -15,7 +15,8 @@ struct ExportChartOptions {
   bool keep_topology = false;  // no new vertices, so that triangles may fold
   bool upward_v = false;       // float32 is to hold (u, 1 − v)
   int threads = 0;
-  Progress progress = {};  // of the chart
+  Progress progress = {};                // of the chart
+  const SphericalChart* made = nullptr;  // of the map, where it is at hand already
 };
 
 /// A chart whose u runs from 0 to 1 in a convention, not at θ = 0: the map is turned by quarters

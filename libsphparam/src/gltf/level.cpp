@@ -18,8 +18,9 @@ ExportChartOptions chart_options(const ExportOptions& options) {
 }
 
 ExportChart chart_of_level(const MappedMesh& mapped, const ExportOptions& options) {
-  ExportChart chart =
-      export_chart(mapped.mesh(), mapped.topology(), mapped.map(), chart_options(options));
+  ExportChartOptions how = chart_options(options);
+  how.made = mapped.chart();
+  ExportChart chart = export_chart(mapped.mesh(), mapped.topology(), mapped.map(), how);
   if (!options.keep_topology) require_one_to_one(chart.chart, mapped.name());
   if (options.shape == ShapeKind::Mesh)
     chart.wedge_normals = split_at_hard_edges(chart.chart, mapped.file(), options.threads);

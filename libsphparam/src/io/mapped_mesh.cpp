@@ -10,6 +10,7 @@
 #include "io/attributes/array_lengths.h"
 #include "io/inspected_source.h"
 #include "sphere/radius.h"
+#include "sphparam/chart/spherical_chart.h"
 #include "sphparam/errors.h"
 #include "sphparam/io/certified_files.h"
 #include "sphparam/io/fillers.h"
@@ -158,6 +159,17 @@ const SphereLocator& MappedMesh::locator() const {
   std::call_once(state_->locator_is_made,
                  [&] { state_->locator.emplace(topology(), map(), shape_->threads); });
   return *state_->locator;
+}
+
+MappedMesh MappedMesh::with_chart(int threads, const Progress& progress) const {
+  MappedMesh other = *this;
+  other.chart_ = std::make_shared<SphericalChart>(chart_of(*this, threads, progress));
+  return other;
+}
+
+SphericalChart chart_of(const MappedMesh& mapped, int threads, const Progress& progress) {
+  if (mapped.chart()) return *mapped.chart();
+  return spherical_chart(mapped.mesh(), mapped.topology(), mapped.map(), threads, progress);
 }
 
 SphereMap unit_rays(SphereMap map) {

@@ -31,7 +31,7 @@ struct WholeOptions {
 
 /// One closed surface of genus 0 that stands for an asset, and its map.
 struct WholeSurface {
-  MappedMesh mapped;
+  MappedMesh mapped;  // with its chart at hand
   WholeBy by = WholeBy::Itself;
   double area_kept = 1;                 // of the asset's; a wrap keeps all of it inside
   std::vector<std::string> found = {};  // what stood in the way, in an artist's words, a line each

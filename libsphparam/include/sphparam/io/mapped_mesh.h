@@ -18,6 +18,8 @@
 
 namespace sphparam {
 
+struct SphericalChart;
+
 /// A mesh with a map of it onto the unit sphere that is proved one-to-one: what all uses of maps
 /// begin with.
 ///
@@ -65,6 +67,11 @@ class MappedMesh {
   /// by the copies: 0.3 µs and 100 bytes a triangle.
   const SphereLocator& locator() const;
 
+  /// The same with its chart at hand, for those of whose stages several would make it each.
+  /// Throws, cost: as `spherical_chart`; copies share it, some 200 bytes a triangle.
+  MappedMesh with_chart(int threads = 0, const Progress& progress = {}) const;
+  const SphericalChart* chart() const { return chart_.get(); }  // null without `with_chart`
+
  private:
   struct Shape;
   struct State;
@@ -73,6 +80,7 @@ class MappedMesh {
 
   std::shared_ptr<const Shape> shape_;
   std::shared_ptr<const State> state_;  // of it
+  std::shared_ptr<const SphericalChart> chart_;
 };
 
 struct LoadOptions {
@@ -102,6 +110,9 @@ MappedMesh mapped_mesh(MeshSource source, const LoadOptions& options = {});
 /// Throws: WriteError; UnmeasurableMesh for positions or values that are no finite numbers;
 /// NotCertifiedError.
 void save_mapped(const std::string& path, const MappedMesh& mapped, int threads = 0);
+
+/// The chart that is at hand, or else is made now.
+SphericalChart chart_of(const MappedMesh& mapped, int threads = 0, const Progress& progress = {});
 
 /// Rays as they are where all have unit length up to rounding, so that a map stays itself; else
 /// each divided by its length. Requires: no zero ray.
