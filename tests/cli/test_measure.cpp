@@ -110,6 +110,12 @@ TEST_CASE("measure: --signed says which side, in the report, the table and the f
   const Json properties = Json::parse(info.out)["input"]["vertex_properties"];
   for (const char* name : {"error", "deviation", "red"})
     CHECK(std::count(properties.begin(), properties.end(), name) == 1);
+  TriangleMesh inside_out = icosphere(3);  // its sum is another one, by rounding
+  inside_out.triangles.col(0).swap(inside_out.triangles.col(1));
+  const std::string turned = balls.folder / "turned.obj";
+  write_bytes(turned, obj_text(inside_out));
+  CHECK_THAT(sphparam_program({"measure", balls.small, turned, "--samples", "100"}).out,
+             Contains("\nvolume: 4.1") && !Contains(" more (") && !Contains(" less ("));
   const std::string open = balls.folder / "open.obj";
   write_bytes(open, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   const Ended refused = sphparam_program({"measure", balls.small, open, "--signed"});

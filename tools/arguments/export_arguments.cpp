@@ -129,7 +129,8 @@ void refuse_combinations(const ExportArguments& a, const std::string& extension)
          levels + " are of the mesh: leave out --shape");
   refuse(e.source_uv && a.levels() > 0,
          levels + " have no texture coordinates of the mesh: leave out --source-uv");
-  refuse(a.embedded && extension != ".gltf", "--embedded is for .gltf; a .glb is one file anyway");
+  refuse(a.embedded && extension != ".gltf",
+         "--embedded is for .gltf; a .glb and a .usdz are one file anyway");
   refuse(a.levels() > 0 && is_stream(a.output) && a.lod_style == LodStyle::Files,
          levels + " are files: give -o a name");
   refuse(!a.scalar.empty() && (!look.texture.empty() || !look.folder.empty()),

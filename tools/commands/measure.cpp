@@ -338,7 +338,7 @@ void tell_renamed(const MeasureArguments& arguments, const Renamed& renamed, Ses
                       ": " + joined(words));
 }
 
-/// Marks what was left out, in grey; `values` of it have no part in the scale of the colours.
+/// Marks what was left out, in grey.
 MeshFile with_left_out(MeshFile file, const std::vector<std::uint8_t>& left_out) {
   constexpr double grey = 128;
   for (Property& property : file.vertex_properties) {
@@ -351,6 +351,7 @@ MeshFile with_left_out(MeshFile file, const std::vector<std::uint8_t>& left_out)
   return file;
 }
 
+/// What was left out has no part in the scale of the colours.
 VectorX without_left_out(VectorX values, const std::vector<std::uint8_t>& left_out) {
   for (std::size_t v = 0; v < left_out.size(); ++v)
     if (left_out[v]) values[static_cast<Eigen::Index>(v)] = 0;

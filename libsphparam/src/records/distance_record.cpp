@@ -203,12 +203,13 @@ std::string left_out_line(const SurfaceDistance& distance) {
 
 /// Empty where one is open.
 std::string volume_line(const DistanceRecord& record) {
+  constexpr double rounding = 1e-10;  // of a volume
   if (!record.first_volume || !record.second_volume) return "";
   const double first = *record.first_volume, second = *record.second_volume;
   const double gained = second - first;
   std::string text =
       "volume: " + short_number(first, 6) + " of 1, " + short_number(second, 6) + " of 2";
-  if (gained != 0)
+  if (std::abs(gained) > rounding * std::abs(first))
     text += ", " + short_number(std::abs(gained), 6) + (gained > 0 ? " more (" : " less (") +
             short_number(100 * gained / first, 3) + " %)";
   return text + "\n";
