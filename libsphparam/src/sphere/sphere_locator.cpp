@@ -281,7 +281,7 @@ SurfacePoint SphereLocator::finish(const Vector3& q, const Found& found) const {
   if (found.touches) return finish_at_edge(q, found);
   SurfacePoint point{cells_[static_cast<size_t>(found.cell)].face,
                      {found.dets[0], found.dets[1], found.dets[2]}};
-  double sum = point.barycentric.sum();
+  double sum = found.dets[0] + found.dets[1] + found.dets[2];  // in the order of `settle`
   if (sum < coarse_triangle) {
     point.barycentric = small_weights(q, point.face).cwiseMax(std::numeric_limits<double>::min());
     sum = point.barycentric.sum();
