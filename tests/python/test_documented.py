@@ -6,14 +6,17 @@ import inspect
 import os
 import pathlib
 import pydoc
+import re
 import shutil
 import subprocess
 import sys
 import typing
 
+import numpy as np
 import pytest
 
 import sphparam as sp
+from shapes import sphere
 
 package = pathlib.Path(os.path.realpath(sp.__file__)).parent
 page = (pathlib.Path(__file__).resolve().parents[2] / "docs" / "python.md").read_text()
@@ -183,3 +186,15 @@ def test_wheels_are_made_by_every_python_that_they_are_for(monkeypatch):
     monkeypatch.setitem(sys.modules, "tomli", tomllib)
     backend = wheel_backend()
     assert backend._project()["version"] == sp.__version__ and backend._project()["requires-python"] == ">=3.10"
+
+
+def test_the_page_engraves_a_mesh_by_an_image():
+    names = {"np": np, "sp": sp}
+    exec(re.search(r"```python\n(def engraved.*?)```", page, re.DOTALL)[1], names)
+    ball = sp.map(*sphere(4), method="radial")
+    cap = np.zeros((64, 128))
+    cap[:16] = 1  # down to 45 degrees from the north
+    deep = np.linalg.norm(names["engraved"](ball, cap, 0.1).vertices, axis=1)
+    polar = np.degrees(np.arccos(ball.vertices[:, 2] / np.linalg.norm(ball.vertices, axis=1)))
+    assert deep[polar < 42] == pytest.approx(0.9, abs=1e-3)
+    assert deep[polar > 48] == pytest.approx(1, abs=1e-12)
