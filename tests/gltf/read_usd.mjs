@@ -1,8 +1,8 @@
 // tinyusdz over exports: node read_usd.mjs PACKAGES MESH.glb USD…
 // Ends with 1 where a mesh of USD has other numbers than the .glb, bit by bit: points, triangles,
 // normals, (u, 1 - v); and where its material does not show what that of the .glb does.
-import { readFileSync } from 'node:fs';
-import { join, resolve } from 'node:path';
+import { copyFileSync, readFileSync } from 'node:fs';
+import { dirname, join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
 
 const [packages, glb, ...files] = process.argv.slice(2);
@@ -11,7 +11,10 @@ const folder = resolve(packages, 'node_modules/tinyusdz');
 // It is made for browsers, and asks whether this is one.
 globalThis.window = globalThis;
 process.type = 'renderer';
-const { default: initialise } = await import(pathToFileURL(join(folder, 'tinyusdz.js')));
+// Its package does not say that it is a module: Debian's node knows it by the name alone.
+const tinyusdz = join(dirname(resolve(glb)), 'tinyusdz.mjs');
+copyFileSync(join(folder, 'tinyusdz.js'), tinyusdz);
+const { default: initialise } = await import(pathToFileURL(tinyusdz));
 const module = await initialise({ wasmBinary: readFileSync(join(folder, 'tinyusdz.wasm')) });
 
 const bytes = readFileSync(glb);
