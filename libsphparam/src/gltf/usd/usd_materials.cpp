@@ -205,9 +205,11 @@ void UsdMaterials::write(LayerText& text) const {
 
 std::vector<int> images_of_usd(const Asset& asset) {
   std::vector<int> images;
-  for (const Material& material : asset.materials)
-    for (const Reader& reader : Network(material, has_colours(asset)).readers())
+  for (const Material& material : asset.materials) {
+    const Network network(material, has_colours(asset));
+    for (const Reader& reader : network.readers())
       if (std::ranges::count(images, reader.image) == 0) images.push_back(reader.image);
+  }
   return images;
 }
 
